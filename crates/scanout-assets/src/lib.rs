@@ -1,0 +1,2 @@
+//! Mesh and texture readers for scanout.
+#![cfg_attr(not(feature = "std"), no_std)]

@@ -1,0 +1,2 @@
+//! The `scanout` program.
+fn main() {}

@@ -1,0 +1,3 @@
+//! Triangles, lines and points to pixels.
+
+pub mod line;
