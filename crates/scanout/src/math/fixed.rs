@@ -1,0 +1,222 @@
+//! `Q16`: the user's scalar, Q16.16.
+//!
+//! value = n / 2^16, n an i32: range [-32768, 32768 - 2^-16], resolution 2^-16 (system A's 32-bit format).
+//!
+//! | operation | rounding | beyond the range |
+//! |---|---|---|
+//! | `+`, `-`, negation, `abs` | exact | saturates |
+//! | `*` | floor | wraps: the middle 32 bits of the 64-bit product (system A's `mult32_inst`) |
+//! | `mul_nearest` | nearest, ties upwards | saturates |
+//! | `/` | nearest, ties away from zero | saturates, also for a divisor of zero (0 / 0 = 0) |
+//! | `recip` | towards zero, 2^32 / n (system A's `inv32_inst`) | saturates |
+//! | `sqrt` | floor | zero for a negative number |
+//!
+//! What it will not do: other fraction widths, and no silent conversion from floats.
+
+use super::root::isqrt64;
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A number in Q16.16. The field is the raw integer: `Q16(65536)` is one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default, Hash)]
+#[repr(transparent)]
+pub struct Q16(pub i32);
+
+impl Q16 {
+    /// 0.
+    pub const ZERO: Q16 = Q16(0);
+    /// 1.
+    pub const ONE: Q16 = Q16(1 << 16);
+    /// 1/2.
+    pub const HALF: Q16 = Q16(1 << 15);
+    /// -32768.
+    pub const MIN: Q16 = Q16(i32::MIN);
+    /// 32768 - 2^-16.
+    pub const MAX: Q16 = Q16(i32::MAX);
+
+    /// An integer, exact.
+    #[inline]
+    pub const fn from_int(n: i16) -> Q16 {
+        Q16((n as i32) << 16)
+    }
+
+    /// `num / den`, nearest, ties away from zero. Saturates, also for `den` = 0 (0 / 0 = 0).
+    pub const fn from_ratio(num: i32, den: i32) -> Q16 {
+        if den == 0 {
+            return Q16(if num > 0 {
+                i32::MAX
+            } else if num < 0 {
+                i32::MIN
+            } else {
+                0
+            });
+        }
+        let (n, d) = ((num.unsigned_abs() as u64) << 16, den.unsigned_abs() as u64);
+        let q = ((n + d / 2) / d) as i64;
+        Q16(saturate32(if (num < 0) != (den < 0) { -q } else { q }))
+    }
+
+    /// Host convenience: nearest, ties away from zero, saturating; NaN gives 0.
+    pub const fn from_f64(x: f64) -> Q16 {
+        let scaled = x * 65536.0;
+        // The addition may round up just below a half; 53 bits leave that to values beyond Q16's resolution.
+        Q16(saturate32((if scaled < 0.0 { scaled - 0.5 } else { scaled + 0.5 }) as i64))
+    }
+
+    /// Host convenience: exact.
+    pub const fn to_f64(self) -> f64 {
+        self.0 as f64 / 65536.0
+    }
+
+    /// The same number in Q32.32, exact.
+    #[inline]
+    pub const fn to_q32(self) -> i64 {
+        (self.0 as i64) << 16
+    }
+
+    /// Product rounded to nearest, ties upwards; saturates.
+    #[inline]
+    pub const fn mul_nearest(self, other: Q16) -> Q16 {
+        Q16(saturate32((self.0 as i64 * other.0 as i64 + 0x8000) >> 16))
+    }
+
+    /// `2^32 / n` towards zero (system A: `inv32_inst`); saturates for |n| <= 2, and gives `MAX` for zero.
+    #[inline]
+    pub const fn recip(self) -> Q16 {
+        if self.0 == 0 { Q16::MAX } else { Q16(saturate32((1i64 << 32) / self.0 as i64)) }
+    }
+
+    /// Square root, floor: error in [0, 2^-16). Zero for a negative number.
+    pub const fn sqrt(self) -> Q16 {
+        if self.0 <= 0 { Q16::ZERO } else { Q16(isqrt64((self.0 as u64) << 16) as i32) }
+    }
+
+    /// Magnitude; `MIN` gives `MAX`.
+    #[inline]
+    pub const fn abs(self) -> Q16 {
+        Q16(self.0.saturating_abs())
+    }
+
+    /// `low` when below, `high` when above (`high` wins when they are crossed).
+    #[inline]
+    pub const fn clamp(self, low: Q16, high: Q16) -> Q16 {
+        let n = if self.0 < low.0 { low.0 } else { self.0 };
+        Q16(if n > high.0 { high.0 } else { n })
+    }
+}
+
+impl Add for Q16 {
+    type Output = Q16;
+    /// Saturates.
+    #[inline]
+    fn add(self, other: Q16) -> Q16 {
+        Q16(self.0.saturating_add(other.0))
+    }
+}
+
+impl Sub for Q16 {
+    type Output = Q16;
+    /// Saturates.
+    #[inline]
+    fn sub(self, other: Q16) -> Q16 {
+        Q16(self.0.saturating_sub(other.0))
+    }
+}
+
+impl AddAssign for Q16 {
+    /// Saturates.
+    #[inline]
+    fn add_assign(&mut self, other: Q16) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Q16 {
+    /// Saturates.
+    #[inline]
+    fn sub_assign(&mut self, other: Q16) {
+        *self = *self - other;
+    }
+}
+
+impl Neg for Q16 {
+    type Output = Q16;
+    /// Saturates: `-MIN` is `MAX`.
+    #[inline]
+    fn neg(self) -> Q16 {
+        Q16(self.0.saturating_neg())
+    }
+}
+
+impl Mul for Q16 {
+    type Output = Q16;
+    /// The middle 32 bits of the 64-bit product: floor, and wraps beyond the range (system A).
+    #[inline]
+    fn mul(self, other: Q16) -> Q16 {
+        Q16(((self.0 as i64 * other.0 as i64) >> 16) as i32)
+    }
+}
+
+impl Div for Q16 {
+    type Output = Q16;
+    /// Nearest, ties away from zero; saturates, also for a divisor of zero (0 / 0 = 0).
+    #[inline]
+    fn div(self, other: Q16) -> Q16 {
+        Q16::from_ratio(self.0, other.0)
+    }
+}
+
+/// The nearest i32 that exists.
+#[inline]
+pub(crate) const fn saturate32(n: i64) -> i32 {
+    if n > i32::MAX as i64 {
+        i32::MAX
+    } else if n < i32::MIN as i64 {
+        i32::MIN
+    } else {
+        n as i32
+    }
+}
+
+/// The nearest i64 that exists.
+#[inline]
+pub(crate) const fn saturate64(n: i128) -> i64 {
+    if n > i64::MAX as i128 {
+        i64::MAX
+    } else if n < i64::MIN as i128 {
+        i64::MIN
+    } else {
+        n as i64
+    }
+}
+
+/// `n / 2^bits`, nearest, ties upwards; `bits` in 1 - 126. Exact in that no intermediate sum overflows.
+#[inline]
+pub(crate) const fn shift_right_nearest(n: i128, bits: u32) -> i128 {
+    (n >> bits) + ((n >> (bits - 1)) & 1)
+}
+
+/// `n / d`, nearest, ties away from zero, saturated; `None` for `d` = 0.
+pub(crate) const fn div_nearest(n: i128, d: i128) -> Option<i64> {
+    if d == 0 {
+        return None;
+    }
+    let (a, b) = (n.unsigned_abs(), d.unsigned_abs());
+    // Remainder compared from above, so that nothing can overflow.
+    let (q, r) = (a / b, a % b);
+    let q = if r >= b - r { q + 1 } else { q };
+    let q = if q > i64::MAX as u128 { i64::MAX as i128 } else { q as i128 };
+    Some(if (n < 0) != (d < 0) { -q as i64 } else { q as i64 })
+}
+
+/// A float in Q32.32, nearest, saturating; NaN gives 0.
+pub(crate) const fn q32_from_f64(x: f64) -> i64 {
+    let scaled = x * 4294967296.0;
+    // From 2^52 upwards every f64 is an integer, and adding a half would round it wrongly.
+    if scaled >= 4503599627370496.0 || scaled <= -4503599627370496.0 {
+        scaled as i64
+    } else if scaled < 0.0 {
+        (scaled - 0.5) as i64
+    } else {
+        (scaled + 0.5) as i64
+    }
+}

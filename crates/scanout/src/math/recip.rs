@@ -1,0 +1,66 @@
+//! The reciprocal that all three machines share.
+//!
+//! ```text
+//! recip32(m) = floor((2^63 - 1) / m)      m in [2^31, 2^32), result in [2^31, 2^32)
+//! ```
+//!
+//! `m` is a mantissa with its top bit set, U0.32 in [1/2, 1); the result is 1/m in U1.31. The closed form is the
+//! definition. [`recip32`] computes it with the machine's division, [`recip32_newton`] with a 256-entry table and
+//! products of 32 x 32 -> 64 bits, as a circuit or a core without a 64-bit divider does. They agree for every `m`.
+//!
+//! What it will not do: reciprocals of numbers that aren't normalised; see [`normalise_mantissa`].
+
+/// `floor((2^63 - 1) / m)`, exact, for `m` >= 2^31. The top bit of `m` is taken as set.
+///
+/// Cost: one 64-bit division.
+#[inline]
+pub const fn recip32(m: u32) -> u32 {
+    (((1u64 << 63) - 1) / (m | 1 << 31) as u64) as u32
+}
+
+/// Seeds of [`recip32_newton`]: the reciprocal at the middle of each of the 256 steps of 2^23. 512 bytes.
+static RECIP_SEED: [u16; 256] = {
+    let mut table = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        // m = (2 (256 + i) + 1) 2^22, so 2^63 / m / 2^16 = 2^25 / (513 + 2 i).
+        table[i] = ((1u32 << 25) / (513 + 2 * i as u32)) as u16;
+        i += 1;
+    }
+    table
+};
+
+/// [`recip32`] without a division: seed, two Newton steps, fix-up. Equal to it for every `m`.
+///
+/// The seed is right to 2^-9, the first step makes that 2^-18, the second 2^-36 less the truncation. Newton's step
+/// `r (2 - m r)` never exceeds `1 / m` and truncation only lowers it, so the fix-up only ever adds, at most three times.
+///
+/// Cost: a table read, five products of 32 x 32 -> 64 bits, at most three subtractions.
+#[inline]
+pub const fn recip32_newton(m: u32) -> u32 {
+    let m = (m | 1 << 31) as u64;
+    let mut r = (RECIP_SEED[(m >> 23) as usize & 255] as u64) << 16;
+    let mut step = 0;
+    while step < 2 {
+        // 1 - m r in Q32: below 2^-8 in magnitude, so 25 bits and a sign.
+        let e = ((1i64 << 63).wrapping_sub((m * r) as i64)) >> 31;
+        r = (r as i64 + ((r as i64 * e) >> 32)) as u64;
+        step += 1;
+    }
+    let mut rest = ((1 << 63) - 1) - m * r;
+    while rest >= m {
+        rest -= m;
+        r += 1;
+    }
+    r as u32
+}
+
+/// The leading one of `n` moved to bit 31: `(m, shift)` with `m = floor(n * 2^shift / 2^32)`, so that `m` is in
+/// [2^31, 2^32) and `n = m * 2^(32 - shift)`, truncated below `m`'s last bit (exact for `n` < 2^32).
+///
+/// `shift` is the number of leading zeros, 0 - 63; zero gives `(0, 64)`.
+#[inline]
+pub const fn normalise_mantissa(n: u64) -> (u32, u32) {
+    let shift = n.leading_zeros();
+    if shift == 64 { (0, 64) } else { (((n << shift) >> 32) as u32, shift) }
+}
