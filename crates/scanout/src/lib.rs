@@ -3,8 +3,13 @@
 #![forbid(unsafe_code)]
 
 pub mod camera;
+pub mod depth;
+pub mod interpolate;
 pub mod math;
 pub mod mesh;
+pub mod output;
 pub mod raster;
 pub mod scene;
+pub mod setup;
+pub mod shade;
 pub mod texture;

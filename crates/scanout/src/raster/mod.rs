@@ -1,3 +1,4 @@
-//! Triangles, lines and points to pixels.
+//! Raster: triangles, lines and points become pixels. Coverage is exact, so any traversal finds the same pixels.
 
 pub mod line;
+pub mod triangle;

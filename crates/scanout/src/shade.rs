@@ -1,0 +1,136 @@
+//! Shade: a fragment's colour from its vertex colour, texel and fog.
+//!
+//! | operation | closed form | rounding |
+//! |---|---|---|
+//! | modulate | `a b / 255` | to nearest, exact |
+//! | fog, blend | `(a (255 - f) + b f) / 255` | to nearest, exact |
+//!
+//! Division by 255 is `(t + (t >> 8)) >> 8` with `t = n + 128`, exact for n up to 65025 = 255^2.
+
+use crate::scene::Fog;
+
+/// `n / 255` rounded to nearest, exact for 0 <= n <= 65025 = 255^2.
+#[inline(always)]
+pub fn div255(n: u32) -> u8 {
+    let t = n + 128;
+    ((t + (t >> 8)) >> 8) as u8
+}
+
+/// Multiplies two colours channel by channel, 255 being one.
+#[inline(always)]
+pub fn modulate(a: [u8; 3], b: [u8; 3]) -> [u8; 3] {
+    core::array::from_fn(|i| div255(a[i] as u32 * b[i] as u32))
+}
+
+/// `a` where `weight` is 0, `b` where it is 255, linear between.
+#[inline(always)]
+pub fn blend(a: [u8; 3], b: [u8; 3], weight: u8) -> [u8; 3] {
+    let f = weight as u32;
+    core::array::from_fn(|i| div255(a[i] as u32 * (255 - f) + b[i] as u32 * f))
+}
+
+/// `255 exp(-i / 8)` for i in 0 - 64.
+const EXP: [u8; 65] = [
+    255, 225, 199, 175, 155, 136, 120, 106, 94, 83, 73, 64, 57, 50, 44, 39, 35, 30, 27, 24, 21, 18, 16,
+    14, 13, 11, 10, 9, 8, 7, 6, 5, 5, 4, 4, 3, 3, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0,
+];
+
+/// Fog prepared for a frame.
+///
+/// `weight(w)` for a distance `w` in U16.16 world units is
+/// - linear: `255 (w - start) / (end - start)`, through one multiplication by `round(2^40 255 / (end - start))`, floor;
+/// - exponential: `255 - 255 exp(-x)`, `x = density w` in U.16 floor, from a table of `exp(-i / 8)` interpolated linearly,
+///   within 2/255.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FogWeights {
+    /// Colour of the fog.
+    pub colour: [u8; 3],
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Linear { start: u32, length: u32, factor: u64 },
+    Exponential { density: u32 },
+}
+
+impl FogWeights {
+    /// Prepares a fog. A linear fog whose end is not beyond its start begins and ends at `start`.
+    pub fn new(fog: &Fog) -> FogWeights {
+        match *fog {
+            Fog::Linear { colour, start, end } => {
+                let start = start.0.max(0) as u32;
+                let length = (end.0.max(0) as u32).saturating_sub(start).max(1);
+                let factor = ((255u64 << 40) + length as u64 / 2) / length as u64;
+                FogWeights { colour, kind: Kind::Linear { start, length, factor } }
+            }
+            Fog::Exponential { colour, density } => {
+                FogWeights { colour, kind: Kind::Exponential { density: density.0.max(0) as u32 } }
+            }
+        }
+    }
+
+    /// How much of the fog's colour is seen at distance `w`, U16.16.
+    #[inline]
+    pub fn weight(&self, w: u32) -> u8 {
+        match self.kind {
+            Kind::Linear { start, length, factor } => {
+                let d = w.saturating_sub(start).min(length) as u64;
+                ((d * factor) >> 40).min(255) as u8
+            }
+            Kind::Exponential { density } => {
+                let x = (density as u64 * w as u64) >> 16;
+                let i = (x >> 13) as usize;
+                if i >= 64 {
+                    return 255;
+                }
+                let f = (x & 0x1fff) as u32;
+                let e = (EXP[i] as u32 * (0x2000 - f) + EXP[i + 1] as u32 * f + 0x1000) >> 13;
+                255 - e as u8
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Q16;
+
+    #[test]
+    fn division_by_255_is_exact() {
+        for n in 0..=255 * 255u32 {
+            assert_eq!(div255(n) as u32, (2 * n + 255) / 510);
+        }
+    }
+
+    #[test]
+    fn one_is_neutral_and_ends_are_exact() {
+        let a = [1, 128, 255];
+        assert_eq!(modulate(a, [255; 3]), a);
+        assert_eq!(modulate(a, [0; 3]), [0; 3]);
+        assert_eq!(blend(a, [9; 3], 0), a);
+        assert_eq!(blend(a, [9; 3], 255), [9; 3]);
+    }
+
+    #[test]
+    fn fog_matches_its_formula() {
+        let linear = FogWeights::new(&Fog::Linear {
+            colour: [0; 3],
+            start: Q16(2 << 16),
+            end: Q16(10 << 16),
+        });
+        let exponential = FogWeights::new(&Fog::Exponential { colour: [0; 3], density: Q16(1 << 15) });
+        for i in 0..20_000u32 {
+            let w = i * 77;
+            let d = w as f64 / 65536.0;
+            let l = ((d - 2.0) / 8.0).clamp(0.0, 1.0) * 255.0;
+            assert!((linear.weight(w) as f64 - l).abs() <= 1.0, "{d}");
+            let e = 255.0 - 255.0 * (-0.5 * d).exp();
+            assert!((exponential.weight(w) as f64 - e).abs() <= 2.0, "{d}");
+        }
+        assert_eq!(linear.weight(u32::MAX), 255);
+        assert_eq!(exponential.weight(u32::MAX), 255);
+    }
+}
