@@ -1,14 +1,14 @@
 //! Texture: a fragment's texel, perspective-correct, from planes and one integer reciprocal.
 //!
 //! ```text
-//! q   = plane of 1/w, U24.8, floor to an integer, at least 1
+//! q   = plane of 1/w (U24.8), floor to an integer, at least 1
 //! r   = floor((2^47 - 1) / q)                       the reciprocal that all machines share
 //! s   = (plane of s/w * r + half) >> shift          sub-texel coordinate, 1/4096 texel
 //! ```
 //!
 //! `q`, `s/w` and `t/w` are block floating point: [`setup`](crate::setup) scales each so that the largest of the three vertices
 //! fills its format, and only the ratio counts. A texel coordinate is exact to about 2^-20 of the triangle's span of
-//! the texture. Dividing once a pixel is the definition; any faster way must give the same `r`.
+//! the texture. Dividing once a pixel is the definition; any faster way must give the same `r`. See [`TextureSetup`].
 //!
 //! | step | closed form |
 //! |---|---|

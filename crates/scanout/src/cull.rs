@@ -1,0 +1,112 @@
+//! Cull: what need not be drawn.
+//!
+//! | test | on | exact |
+//! |---|---|---|
+//! | back face | sign of twice the screen area (i64); of the clip-space determinant (i128) for what is clipped | yes |
+//! | no area | the same | yes |
+//! | view volume | bounding box of pixel centres against the frame | yes |
+//! | whole mesh | bounding sphere against the six planes, in clip units, rounded so that it never culls what is visible | no |
+
+use crate::mesh::Sphere;
+use crate::transform::ClipMatrix;
+
+/// Which way a triangle's corners run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Facing {
+    /// Counter-clockwise seen by the camera.
+    Front,
+    /// Clockwise.
+    Back,
+    /// Seen from its edge, or without area.
+    Edge,
+}
+
+/// Facing from the sign of twice the screen area (y down, so counter-clockwise is negative).
+#[inline(always)]
+pub fn facing(signed_area: i64) -> Facing {
+    match signed_area {
+        ..0 => Facing::Front,
+        0 => Facing::Edge,
+        1.. => Facing::Back,
+    }
+}
+
+/// Facing of a triangle that may reach behind the camera, from its clip coordinates: the sign of the determinant of
+/// (x, y, w), which is positive for a front face.
+pub fn facing_in_clip_space(c: &[[i32; 4]; 3]) -> Facing {
+    let [a, b, c] = c.map(|v| [v[0] as i128, v[1] as i128, v[3] as i128]);
+    let determinant = a[0] * (b[1] * c[2] - c[1] * b[2]) - a[1] * (b[0] * c[2] - c[0] * b[2])
+        + a[2] * (b[0] * c[1] - c[0] * b[1]);
+    facing(-(determinant.signum() as i64))
+}
+
+/// Whether a bounding sphere lies wholly outside one of the view volume's planes.
+pub fn sphere_outside(m: &ClipMatrix, sphere: &Sphere) -> bool {
+    let centre = m.apply(sphere.centre).map(i64::from);
+    // Each plane is `row . p >= 0` with row = w + x, w - x, w + y, w - y, z, w - z.
+    let row = |i: usize, sign_i: i64, sign_w: i64| {
+        let distance = sign_i * centre[i] + sign_w * centre[3];
+        // Length of the plane's normal, rounded up: components below 2^31, halved twice to fit.
+        let squares: u64 = (0..3)
+            .map(|k| sign_i * m.m[i][k] as i64 + sign_w * m.m[3][k] as i64)
+            .map(|n| (n.unsigned_abs() >> 2) + 1)
+            .map(|n| n * n)
+            .sum();
+        let length = (crate::math::isqrt64(squares) as i64 + 1) << 2;
+        distance + ((length * sphere.radius as i64) >> 15) + 4 < 0
+    };
+    row(2, 1, 0) || [0, 1].iter().any(|&i| row(i, 1, 1) || row(i, -1, 1)) || row(2, -1, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Mat4;
+
+    #[test]
+    fn determinant_and_area_agree() {
+        // A triangle counter-clockwise in front of the camera, y up.
+        let c = [[-10, -10, 5, 10], [10, -10, 5, 10], [0, 10, 5, 10]];
+        assert_eq!(facing_in_clip_space(&c), Facing::Front);
+        assert_eq!(facing_in_clip_space(&[c[0], c[2], c[1]]), Facing::Back);
+        assert_eq!(facing_in_clip_space(&[c[0], c[1], c[1]]), Facing::Edge);
+        let viewport = crate::transform::Viewport::new(64, 64);
+        let v = c.map(|c| viewport.project(&c)).map(|v| [v.x, v.y]);
+        assert_eq!(facing(crate::setup::signed_area(&v)), Facing::Front);
+    }
+
+    #[test]
+    fn a_visible_sphere_is_never_culled() {
+        let mut seed = 3u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 40) as f64 / (1u64 << 23) as f64 - 1.0
+        };
+        let (mut culled, mut kept) = (0, 0);
+        for _ in 0..3000 {
+            let mut m = [[0f64; 4]; 4];
+            for v in m.iter_mut().flatten() {
+                *v = random();
+            }
+            (m[0][3], m[1][3], m[2][3], m[3][3]) = (random() * 4.0, random() * 4.0, 1.0, 2.0);
+            let matrix = ClipMatrix::new(&Mat4::from_f64(m));
+            let sphere = Sphere { centre: [0; 3], radius: 8000 };
+            if !sphere_outside(&matrix, &sphere) {
+                kept += 1;
+                continue;
+            }
+            culled += 1;
+            for _ in 0..100 {
+                let p = [random(), random(), random()];
+                let length = p.iter().map(|v| v * v).sum::<f64>();
+                if length > 1.0 {
+                    continue;
+                }
+                let c = matrix.apply(p.map(|v| (v * 8000.0) as i16));
+                let visible = c[0].abs() <= c[3] && c[1].abs() <= c[3] && c[2] >= 0 && c[2] <= c[3];
+                assert!(!visible, "{c:?}");
+            }
+        }
+        assert!(culled > 500 && kept > 500, "{culled} {kept}");
+    }
+}
