@@ -220,3 +220,121 @@ pub(crate) const fn q32_from_f64(x: f64) -> i64 {
         (scaled + 0.5) as i64
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::math::testing::Random;
+
+    const EDGES: [i32; 13] =
+        [0, 1, -1, 2, -2, 3, 0x7fff, 0x8000, 0x10000, -0x10000, i32::MAX, i32::MIN, i32::MIN + 1];
+
+    fn pairs() -> impl Iterator<Item = (i32, i32)> {
+        let mut random = Random::new();
+        let edges = EDGES.into_iter().flat_map(|a| EDGES.into_iter().map(move |b| (a, b)));
+        edges.chain((0..200_000).map(move |_| (random.spread(), random.spread())))
+    }
+
+    fn saturated(x: f64) -> f64 {
+        x.clamp(Q16::MIN.to_f64(), Q16::MAX.to_f64())
+    }
+
+    #[test]
+    fn system_a_multiply_keeps_the_middle_32_bits() {
+        for (a, b) in pairs() {
+            let product = (a as i128 * b as i128) as u64;
+            let middle = (product >> 16) as u32 as i32;
+            assert_eq!((Q16(a) * Q16(b)).0, middle, "{a} * {b}");
+        }
+        // System A's format: 1.5 * -2.25 = -3.375.
+        assert_eq!(Q16::from_f64(1.5) * Q16::from_f64(-2.25), Q16::from_f64(-3.375));
+    }
+
+    #[test]
+    fn system_a_reciprocal_is_2_to_32_over_n() {
+        for (n, _) in pairs().filter(|p| p.0.unsigned_abs() > 2) {
+            let exact = 4294967296.0 / n as f64;
+            assert_eq!(Q16(n).recip().0 as f64, exact.trunc(), "{n}");
+        }
+        assert_eq!(Q16(2).recip(), Q16::MAX);
+        assert_eq!(Q16(-2).recip(), Q16::MIN);
+        assert_eq!(Q16(-1).recip(), Q16::MIN);
+        assert_eq!(Q16::ZERO.recip(), Q16::MAX);
+        assert_eq!(Q16::from_int(4).recip(), Q16::from_f64(0.25));
+    }
+
+    #[test]
+    fn sums_and_nearest_products_and_quotients_saturate() {
+        for (a, b) in pairs() {
+            let (p, q) = (Q16(a), Q16(b));
+            let (x, y) = (p.to_f64(), q.to_f64());
+            assert_eq!((p + q).to_f64(), saturated(x + y));
+            assert_eq!((p - q).to_f64(), saturated(x - y));
+            assert_eq!((-p).to_f64(), saturated(-x));
+            assert_eq!(p.abs().to_f64(), saturated(x.abs()));
+            let half = 0.5 / 65536.0;
+            assert!((p.mul_nearest(q).to_f64() - saturated(x * y)).abs() <= half, "{a} {b}");
+            if b != 0 {
+                assert!((p / q).to_f64() - saturated(x / y) <= half * 1.000001, "{a} {b}");
+                assert!((p / q).to_f64() - saturated(x / y) >= -half * 1.000001, "{a} {b}");
+            }
+        }
+        assert_eq!(Q16::ONE / Q16::ZERO, Q16::MAX);
+        assert_eq!(-Q16::ONE / Q16::ZERO, Q16::MIN);
+        assert_eq!(Q16::ZERO / Q16::ZERO, Q16::ZERO);
+        assert_eq!(Q16::from_ratio(-1, 3), -Q16::from_ratio(1, 3));
+    }
+
+    #[test]
+    fn square_root_is_the_floor() {
+        for (n, _) in pairs() {
+            let root = Q16(n).sqrt().0 as i64;
+            let square = if n > 0 { (n as i64) << 16 } else { 0 };
+            assert!(root * root <= square && square < (root + 1) * (root + 1), "{n}");
+        }
+    }
+
+    #[test]
+    fn floats_convert_at_the_door() {
+        for (n, _) in pairs() {
+            assert_eq!(Q16::from_f64(Q16(n).to_f64()).0, n);
+            assert_eq!(Q16::from_f64((n as f64 + 0.49) / 65536.0).0, n);
+            assert_eq!(Q16::from_f64((n as f64 - 0.49) / 65536.0).0, n);
+            assert_eq!(q32_from_f64(Q16(n).to_f64()), Q16(n).to_q32());
+        }
+        assert_eq!(Q16::from_f64(f64::NAN), Q16::ZERO);
+        assert_eq!(Q16::from_f64(1e300), Q16::MAX);
+        assert_eq!(Q16::from_f64(f64::NEG_INFINITY), Q16::MIN);
+        assert_eq!(q32_from_f64(f64::NAN), 0);
+        assert_eq!(q32_from_f64(1e300), i64::MAX);
+        assert_eq!(q32_from_f64(1048576.0 + 1.0 / 4294967296.0), (1 << 52) + 1);
+        assert_eq!(q32_from_f64(-0.75 / 4294967296.0), -1);
+        assert_eq!(Q16::from_int(i16::MIN), Q16::MIN);
+    }
+
+    #[test]
+    fn clamp_never_panics() {
+        assert_eq!(Q16(5).clamp(Q16(1), Q16(3)), Q16(3));
+        assert_eq!(Q16(-5).clamp(Q16(1), Q16(3)), Q16(1));
+        assert_eq!(Q16(2).clamp(Q16(1), Q16(3)), Q16(2));
+        assert_eq!(Q16(2).clamp(Q16(3), Q16(1)), Q16(1));
+    }
+
+    #[test]
+    fn wide_helpers_round_to_nearest() {
+        for n in -40i128..=40 {
+            assert_eq!(shift_right_nearest(n, 3), (n + 4).div_euclid(8));
+            for d in (-9..=9).filter(|&d| d != 0) {
+                let exact = n as f64 / d as f64;
+                assert_eq!(div_nearest(n, d), Some(exact.round() as i64), "{n} / {d}");
+            }
+        }
+        assert_eq!(shift_right_nearest(i128::MAX, 1), 1 << 126);
+        assert_eq!(div_nearest(i128::MIN, -1), Some(i64::MAX));
+        assert_eq!(div_nearest(i128::MAX, i128::MIN), Some(-1));
+        assert_eq!(div_nearest(1, 0), None);
+        assert_eq!(saturate64(i128::MIN), i64::MIN);
+        assert_eq!(saturate64(i128::MAX), i64::MAX);
+    }
+}

@@ -253,3 +253,178 @@ impl Mul for Mat4 {
         Mat4::mul(&self, &other)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::math::Angle;
+    use crate::math::testing::Random;
+
+    fn random_matrix(random: &mut Random, zeros: bool) -> Mat4 {
+        let mut m = [[0; 4]; 4];
+        for entry in m.iter_mut().flatten() {
+            if !(zeros && random.u32() & 1 == 0) {
+                *entry = (random.u64() as i64) >> random.range(20, 63);
+            }
+        }
+        Mat4 { m }
+    }
+
+    #[test]
+    fn products_round_once() {
+        let mut random = Random::new();
+        for i in 0..20_000 {
+            let a = random_matrix(&mut random, i & 1 == 0);
+            let b = random_matrix(&mut random, i & 2 == 0);
+            let got = a * b;
+            for r in 0..4 {
+                for c in 0..4 {
+                    let sum: i128 = (0..4).map(|k| a.m[r][k] as i128 * b.m[k][c] as i128).sum();
+                    let exact = (sum + (1 << 31)).div_euclid(1 << 32);
+                    assert_eq!(got.m[r][c] as i128, exact);
+                }
+            }
+        }
+        let wild = Mat4 { m: [[i64::MIN; 4]; 4] };
+        assert_eq!((wild * wild).m, [[i64::MAX; 4]; 4]);
+        assert_eq!((Mat4::IDENTITY * wild).m, wild.m);
+    }
+
+    #[test]
+    fn points_move_and_directions_do_not() {
+        let mut random = Random::new();
+        for _ in 0..20_000 {
+            let m = random_matrix(&mut random, false);
+            let v = Vec3::new(Q16(random.spread()), Q16(random.spread()), Q16(random.spread()));
+            let (p, d) = (m.transform_point(v), m.transform_direction(v));
+            let raw = v.raw();
+            for r in 0..4 {
+                let turned: i128 = (0..3).map(|k| m.m[r][k] as i128 * raw[k] as i128).sum();
+                let nearest = |n: i128| saturate64((n + (1 << 15)).div_euclid(1 << 16));
+                assert_eq!(p[r], nearest(turned + ((m.m[r][3] as i128) << 16)));
+                if r < 3 {
+                    assert_eq!(d[r], nearest(turned));
+                }
+            }
+        }
+        let t = Vec3::from_f64([1.5, -2.0, 3.25]);
+        let placed = Mat4::translation(t).transform_point(Vec3::X);
+        assert_eq!(
+            placed,
+            [Q16::from_f64(2.5).to_q32(), -2 * ONE, Q16::from_f64(3.25).to_q32(), ONE]
+        );
+    }
+
+    #[test]
+    fn system_b_placement_is_translation_rotation_scale() {
+        let q = Quat::from_axis_angle(Vec3::Z, Angle::QUARTER).unwrap();
+        let m = Mat4::translation(Vec3::from_f64([10.0, 20.0, 30.0]))
+            * Mat4::rotation(&q)
+            * Mat4::scaling(Vec3::from_f64([2.0, 3.0, 4.0]));
+        let p = m.transform_point(Vec3::from_f64([1.0, 1.0, 1.0]));
+        assert_eq!(p, [7 * ONE, 22 * ONE, 34 * ONE, ONE]);
+        let half = Mat4::uniform_scale(Q16::HALF);
+        assert_eq!((half * Mat4::uniform_scale(Q16::from_int(2))), Mat4::IDENTITY);
+        assert_eq!(Mat4::default(), Mat4::IDENTITY);
+    }
+
+    #[test]
+    fn rigid_inverse_undoes() {
+        let mut random = Random::new();
+        for _ in 0..5_000 {
+            let mut v =
+                || Vec3::from_f64([random.unit(), random.unit(), random.unit()].map(|x| x * 50.0));
+            let (axis, t) = (v(), v());
+            let Some(q) = Quat::from_axis_angle(axis, Angle(random.u32())) else { continue };
+            let m = Mat4::translation(t) * q.to_mat4();
+            let both = (m.inverse_rigid() * m).to_f64();
+            let affine = (m.inverse_affine().unwrap() * m).to_f64();
+            for r in 0..4 {
+                for c in 0..4 {
+                    let same = if r == c { 1.0 } else { 0.0 };
+                    assert!(
+                        (both[r][c] - same).abs() <= 2.0f64.powi(if c == 3 { -20 } else { -26 })
+                    );
+                    assert!(
+                        (affine[r][c] - same).abs() <= 2.0f64.powi(if c == 3 { -24 } else { -30 })
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn affine_inverse_keeps_relative_precision_at_any_scale() {
+        let mut random = Random::new();
+        let mut worst = 0.0f64;
+        for _ in 0..20_000 {
+            let axis = Vec3::from_f64([random.unit(), random.unit(), random.unit()]);
+            let Some(q) = Quat::from_axis_angle(axis, Angle(random.u32())) else { continue };
+            // Scales from 1/500 to 2000, unlike on the three axes.
+            let mut scale = || Q16::from_f64(2.0f64.powf(random.unit() * 10.0 + 1.0));
+            let s = Vec3::new(scale(), scale(), scale());
+            let m = Mat4::scaling(s) * q.to_mat4();
+            let inverse = m.inverse_affine().unwrap().to_f64();
+            // The exact inverse of the matrix as stored, in f64 by cofactors.
+            let a = m.to_f64();
+            let cofactor = |r: usize, c: usize| {
+                let (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
+                a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1]
+            };
+            let det: f64 = (0..3).map(|c| a[0][c] * cofactor(0, c)).sum();
+            for c in 0..3 {
+                let most = (0..3).map(|r| (cofactor(c, r) / det).abs()).fold(0.0, f64::max);
+                for (r, row) in inverse.iter().enumerate().take(3) {
+                    let error = (row[c] - cofactor(c, r) / det).abs();
+                    worst = worst.max((error - 2.0f64.powi(-33)) / most);
+                }
+            }
+        }
+        std::println!("inverse_affine: error 2^{} of the column", worst.log2());
+        assert!(worst <= 2.0f64.powi(-36));
+    }
+
+    #[test]
+    fn affine_inverse_has_an_answer_or_none() {
+        let singular = Mat4::scaling(Vec3::from_f64([1.0, 0.0, 1.0]));
+        assert_eq!(singular.inverse_affine(), None);
+        let mut flat = Mat4::IDENTITY;
+        flat.m[2] = [ONE, ONE, 0, 5];
+        assert_eq!(flat.inverse_affine(), None);
+        assert_eq!(Mat4 { m: [[0; 4]; 4] }.inverse_affine(), None);
+        let mut projective = Mat4::IDENTITY;
+        projective.m[3][2] = 1;
+        assert_eq!(projective.inverse_affine(), None);
+        let mut tiny = Mat4::IDENTITY;
+        tiny.m[0][0] = 1; // 2^-32: its inverse, 2^32, is out of range
+        assert_eq!(tiny.inverse_affine(), None);
+        tiny.m[0][0] = 4; // 2^30 is not
+        assert_eq!(tiny.inverse_affine().unwrap().m[0][0], 1 << 62);
+        let mut random = Random::new();
+        for _ in 0..20_000 {
+            let mut m = Mat4 { m: [[0; 4]; 4] };
+            for entry in m.m.iter_mut().flatten() {
+                *entry = (random.u64() as i64) >> random.range(0, 63);
+            }
+            m.m[3] = [0, 0, 0, ONE];
+            let _ = m.inverse_affine(); // must not panic
+            let _ = m.inverse_rigid();
+        }
+        let wild = Mat4 { m: [[i64::MIN; 4], [i64::MAX; 4], [1, -1, i64::MIN, 0], [0, 0, 0, ONE]] };
+        let _ = wild.inverse_affine();
+        let far = Vec3::new(Q16::MIN, Q16::MIN, Q16::MIN);
+        assert_eq!(wild.transform_point(far)[0], i64::MAX);
+    }
+
+    #[test]
+    fn floats_convert_at_the_door() {
+        let m = [[1.5, -2.25, 0.0, 1e6], [0.0, 1e-9, 0.0, 0.0], [0.0; 4], [0.0, 0.0, 0.0, 1.0]];
+        let back = Mat4::from_f64(m).to_f64();
+        for (got, want) in back.iter().flatten().zip(m.iter().flatten()) {
+            assert!((got - want).abs() <= 2.0f64.powi(-33));
+        }
+        assert_eq!(Mat4::from_f64([[f64::INFINITY; 4]; 4]).m, [[i64::MAX; 4]; 4]);
+        assert_eq!(Mat4::from_f64([[f64::NAN; 4]; 4]).m, [[0; 4]; 4]);
+    }
+}

@@ -24,6 +24,7 @@ mod quat;
 mod recip;
 mod root;
 mod trig;
+mod unit;
 mod vec;
 
 pub use fixed::Q16;
@@ -32,7 +33,8 @@ pub use quat::Quat;
 pub use recip::{normalise_mantissa, recip32, recip32_newton};
 pub use root::{isqrt32, isqrt64, rsqrt32};
 pub use trig::Angle;
-pub use vec::{Unit3, Vec3, normalise, normalise_q14};
+pub use unit::{Unit3, normalise, normalise_q14};
+pub use vec::Vec3;
 
 pub(crate) use fixed::{div_nearest, q32_from_f64, saturate32, saturate64, shift_right_nearest};
 

@@ -15,7 +15,7 @@
 //! What it will not do: interpolate (slerp), Euler angles.
 
 use super::fixed::saturate32;
-use super::vec::normalise4;
+use super::unit::normalise4;
 use super::{Angle, Mat4, Q16, Vec3};
 use core::ops::Mul;
 
@@ -67,6 +67,8 @@ impl Quat {
     }
 
     /// The rotation's matrix (system B, equation 10), Q32.32, each entry rounded to nearest once.
+    ///
+    /// Made from [`Quat::from_axis_angle`], an entry is off by at most 2^-26.5.
     pub const fn to_mat4(self) -> Mat4 {
         let [s, x, y, z] = [self.s as i64, self.x as i64, self.y as i64, self.z as i64];
         // 2 (a b + c d): Q60 to Q32.
@@ -119,6 +121,142 @@ impl Mul for Quat {
             x: sum([(a.s, b.x), (a.x, b.s), (a.y, b.z), (n.z, b.y)]),
             y: sum([(a.s, b.y), (n.x, b.z), (a.y, b.s), (a.z, b.x)]),
             z: sum([(a.s, b.z), (a.x, b.y), (n.y, b.x), (a.z, b.s)]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::math::testing::Random;
+    use std::f64::consts::TAU;
+
+    fn axis_angle(random: &mut Random) -> (Vec3, Angle) {
+        let axis = Vec3::from_f64([random.unit(), random.unit(), random.unit()].map(|x| x * 9.0));
+        (axis, Angle(random.u32()))
+    }
+
+    /// Rodrigues' formula: another road than the quaternion's.
+    fn rodrigues(axis: Vec3, angle: Angle) -> [[f64; 3]; 3] {
+        let a = axis.to_f64();
+        let length = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt();
+        let a = a.map(|x| x / length);
+        let (sin, cos) = (angle.0 as f64 / 4294967296.0 * TAU).sin_cos();
+        let cross = [[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]];
+        let mut m = [[0.0; 3]; 3];
+        for r in 0..3 {
+            for c in 0..3 {
+                let same = if r == c { cos } else { 0.0 };
+                m[r][c] = same + (1.0 - cos) * a[r] * a[c] + sin * cross[r][c];
+            }
+        }
+        m
+    }
+
+    #[test]
+    fn system_b_equation_10_is_the_rotation_matrix() {
+        let mut random = Random::new();
+        let mut worst = 0.0f64;
+        for _ in 0..50_000 {
+            let (axis, angle) = axis_angle(&mut random);
+            let Some(q) = Quat::from_axis_angle(axis, angle) else { continue };
+            let (m, exact) = (q.to_mat4().to_f64(), rodrigues(axis, angle));
+            for r in 0..3 {
+                for c in 0..3 {
+                    worst = worst.max((m[r][c] - exact[r][c]).abs());
+                }
+            }
+            assert_eq!(m[3], [0.0, 0.0, 0.0, 1.0]);
+        }
+        std::println!("to_mat4 of from_axis_angle: error 2^{}", worst.log2());
+        assert!(worst <= 2.0f64.powf(-26.5));
+        assert_eq!(Quat::from_axis_angle(Vec3::ZERO, Angle::HALF), None);
+        assert_eq!(Quat::IDENTITY.to_mat4(), Mat4::IDENTITY);
+        let y = Quat::from_axis_angle(Vec3::Y, Angle::QUARTER).unwrap();
+        assert_eq!(y.rotate(Vec3::Z), Vec3::X);
+    }
+
+    #[test]
+    fn system_b_90_steps_of_4_degrees_return_to_the_start() {
+        let axis = Vec3::from_f64([0.3, 1.0, -0.2]);
+        let at = |step: i16| {
+            let angle = Angle::from_degrees(Q16::from_int(4 * step));
+            Quat::from_axis_angle(axis, angle).unwrap().to_mat4()
+        };
+        assert_eq!(at(90), at(0));
+        assert_eq!(at(90 * 91), at(0));
+        assert_eq!(at(0), Mat4::IDENTITY);
+        for step in 1..90 {
+            assert_ne!(at(step), at(0));
+            assert_eq!(at(step), at(step + 90), "{step}");
+        }
+    }
+
+    #[test]
+    fn products_compose_and_conjugates_undo() {
+        let mut random = Random::new();
+        for _ in 0..20_000 {
+            let ((a, t), (b, u)) = (axis_angle(&mut random), axis_angle(&mut random));
+            let (Some(p), Some(q)) = (Quat::from_axis_angle(a, t), Quat::from_axis_angle(b, u))
+            else {
+                continue;
+            };
+            let (m, n) = ((p * q).to_mat4().to_f64(), (p.to_mat4() * q.to_mat4()).to_f64());
+            let back = (p * p.conj()).to_mat4().to_f64();
+            for r in 0..4 {
+                for c in 0..4 {
+                    assert!((m[r][c] - n[r][c]).abs() <= 2.0f64.powi(-26));
+                    let same = if r == c { 1.0 } else { 0.0 };
+                    assert!((back[r][c] - same).abs() <= 2.0f64.powi(-27));
+                }
+            }
+        }
+        // i j = k
+        let i = Quat { s: 0, x: 1 << 30, y: 0, z: 0 };
+        let j = Quat { s: 0, x: 0, y: 1 << 30, z: 0 };
+        assert_eq!(i * j, Quat { s: 0, x: 0, y: 0, z: 1 << 30 });
+        assert_eq!(j * i, Quat { s: 0, x: 0, y: 0, z: -(1 << 30) });
+    }
+
+    #[test]
+    fn renormalise_brings_back_unit_length() {
+        let step = Quat::from_axis_angle(Vec3::from_f64([1.0, 2.0, 3.0]), Angle(123_456_789));
+        let mut q = Quat::IDENTITY;
+        for _ in 0..10_000 {
+            q = (q * step.unwrap()).renormalise();
+        }
+        let length = |q: Quat| {
+            [q.s, q.x, q.y, q.z].iter().map(|&n| (n as f64 / 1073741824.0).powi(2)).sum::<f64>()
+        };
+        assert!((length(q) - 1.0).abs() <= 2.0f64.powi(-28));
+        let mut random = Random::new();
+        for _ in 0..20_000 {
+            let wild =
+                Quat { s: random.spread(), x: random.i32(), y: random.spread(), z: random.i32() };
+            assert!((length(wild.renormalise()) - 1.0).abs() <= 2.0f64.powi(-28));
+        }
+        let zero = Quat { s: 0, x: 0, y: 0, z: 0 };
+        assert_eq!(zero.renormalise(), Quat::IDENTITY);
+        let least = Quat { s: i32::MIN, x: i32::MIN, y: i32::MIN, z: i32::MIN };
+        assert_eq!(least.renormalise().s, -(1 << 29));
+        let _ = (least * least, least.conj() * least, least.to_mat4()); // saturate, don't panic
+    }
+
+    #[test]
+    fn rotate_stays_within_its_bound() {
+        let mut random = Random::new();
+        for _ in 0..50_000 {
+            let (axis, angle) = axis_angle(&mut random);
+            let v = Vec3::from_f64([random.unit(), random.unit(), random.unit()].map(|x| x * 9e3));
+            let Some(q) = Quat::from_axis_angle(axis, angle) else { continue };
+            let (got, m, p) = (q.rotate(v).to_f64(), rodrigues(axis, angle), v.to_f64());
+            let length = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]).sqrt();
+            for r in 0..3 {
+                let exact = m[r][0] * p[0] + m[r][1] * p[1] + m[r][2] * p[2];
+                let bound = 2.0f64.powi(-17) + length * 2.0f64.powi(-26);
+                assert!((got[r] - exact).abs() <= bound);
+            }
         }
     }
 }

@@ -64,3 +64,73 @@ pub const fn normalise_mantissa(n: u64) -> (u32, u32) {
     let shift = n.leading_zeros();
     if shift == 64 { (0, 64) } else { (((n << shift) >> 32) as u32, shift) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::testing::Random;
+
+    fn check(m: u32) {
+        let exact = (((1u128 << 63) - 1) / m as u128) as u32;
+        assert!(exact >= 1 << 31);
+        assert_eq!(recip32(m), exact, "{m:#x}");
+        assert_eq!(recip32_newton(m), exact, "{m:#x}");
+    }
+
+    #[test]
+    fn newton_equals_the_closed_form() {
+        // The ends of every step of the table, powers of two, and a dense sample.
+        for i in 256..512u32 {
+            for d in 0..64 {
+                check((i << 23) + d);
+                check((i << 23) + 0x7f_ffff - d);
+                check((i << 23) + 0x40_0000 - 32 + d);
+            }
+        }
+        for bit in 0..31 {
+            check(1 << 31 | 1 << bit);
+            check(!(1 << bit));
+        }
+        for m in (1 << 31..=u32::MAX).step_by(1021) {
+            check(m);
+        }
+        let mut random = Random::new();
+        for _ in 0..2_000_000 {
+            let m = random.u32() | 1 << 31;
+            assert_eq!(recip32(m), recip32_newton(m), "{m:#x}");
+        }
+    }
+
+    #[test]
+    #[ignore = "all 2^31 mantissas: 20 seconds in a release build"]
+    fn newton_equals_the_closed_form_everywhere() {
+        for m in 1 << 31..=u32::MAX {
+            assert_eq!(recip32(m), recip32_newton(m), "{m:#x}");
+        }
+    }
+
+    #[test]
+    fn the_top_bit_is_taken_as_set() {
+        assert_eq!(recip32(0), u32::MAX);
+        assert_eq!(recip32_newton(0), u32::MAX);
+        assert_eq!(recip32(u32::MAX), 1 << 31);
+        assert_eq!(recip32_newton(u32::MAX), 1 << 31);
+    }
+
+    #[test]
+    fn mantissas_are_left_justified() {
+        assert_eq!(normalise_mantissa(0), (0, 64));
+        assert_eq!(normalise_mantissa(1), (1 << 31, 63));
+        assert_eq!(normalise_mantissa(u64::MAX), (u32::MAX, 0));
+        let mut random = Random::new();
+        for i in 0..10_000 {
+            let n = random.u64() >> (i & 63) | 1;
+            let (m, shift) = normalise_mantissa(n);
+            assert!(m >= 1 << 31);
+            assert_eq!(m as u128, ((n as u128) << shift) >> 32);
+            if n <= u32::MAX as u64 {
+                assert_eq!(n, m as u64 >> (shift - 32));
+            }
+        }
+    }
+}

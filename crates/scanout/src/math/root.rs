@@ -52,7 +52,8 @@ static RSQRT_SEED: [u16; 384] = {
     table
 };
 
-/// About `2^46 / sqrt(m)` for `m` in [2^30, 2^32): a result in (2^30 - 2^14, 2^31], relative error in (-2^-16.9, 0].
+/// About `2^46 / sqrt(m)` for `m` in [2^30, 2^32): a result in [2^30 - 2^13, 2^31],
+/// relative error in [-2^-17.4, 2^-31].
 ///
 /// The closed form is the definition, and all three machines share it:
 ///
@@ -70,4 +71,60 @@ pub const fn rsqrt32(m: u32) -> u32 {
     let square = (s as u64 * s as u64) as u32 as u64; // below 2^32
     let e = (3u64 << 30) - ((square * m as u64) >> 32);
     ((s as u64 * e) >> 16) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::math::testing::Random;
+
+    #[test]
+    fn roots_are_exact_about_every_square_of_16_bits() {
+        for root in 0..=0xffffu32 {
+            let square = root * root;
+            assert_eq!(isqrt32(square), root as u16);
+            assert_eq!(isqrt64(square as u64), root);
+            if root > 0 {
+                assert_eq!(isqrt32(square - 1), root as u16 - 1);
+            }
+            assert_eq!(isqrt32(square + root), root as u16);
+        }
+        assert_eq!(isqrt32(u32::MAX), 0xffff);
+    }
+
+    #[test]
+    fn roots_are_exact_for_64_bits() {
+        let mut random = Random::new();
+        for i in 0..200_000u64 {
+            let root = if i < 1000 { u32::MAX - i as u32 } else { random.u32() >> (i & 31) };
+            let square = root as u64 * root as u64;
+            assert_eq!(isqrt64(square), root);
+            assert_eq!(isqrt64(square + 2 * root as u64), root);
+            if root > 0 {
+                assert_eq!(isqrt64(square - 1), root - 1);
+            }
+            let n = random.u64() >> (i & 63);
+            assert_eq!(isqrt64(n) as u64, n.isqrt());
+            assert_eq!(isqrt32(n as u32), (n as u32).isqrt() as u16);
+        }
+        assert_eq!(isqrt64(u64::MAX), u32::MAX);
+    }
+
+    #[test]
+    fn reciprocal_root_stays_within_its_bound() {
+        let (mut least, mut most) = (0.0f64, -1.0f64);
+        let dense = ((1u32 << 30)..=u32::MAX).step_by(4093);
+        let edges = (128..512u32).flat_map(|i| [i << 23, (i << 23) + 0x7f_ffff]);
+        for m in dense.chain(edges) {
+            let exact = 70368744177664.0 / (m as f64).sqrt();
+            let error = rsqrt32(m) as f64 / exact - 1.0;
+            (least, most) = (least.min(error), most.max(error));
+        }
+        std::println!("rsqrt32: relative error in [2^{}, {most:e}]", (-least).log2());
+        assert!(most <= 2.0f64.powi(-31) && least >= -(2.0f64.powf(-17.4)));
+        assert_eq!(rsqrt32(u32::MAX) >> 13, (1 << 17) - 1);
+        assert!(rsqrt32(1 << 30) <= 1 << 31);
+        assert_eq!(rsqrt32(0), rsqrt32(1 << 30));
+    }
 }

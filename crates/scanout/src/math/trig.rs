@@ -179,3 +179,113 @@ impl Mul<i32> for Angle {
         Angle(self.0.wrapping_mul(n as u32))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::math::testing::Random;
+    use std::f64::consts::TAU;
+
+    const ONE: i32 = 1 << 30;
+
+    fn radians(angle: Angle) -> f64 {
+        angle.0 as f64 / 4294967296.0 * TAU
+    }
+
+    fn sample() -> impl Iterator<Item = Angle> {
+        let mut random = Random::new();
+        let edges = (0..=1024u32).flat_map(|i| {
+            (-2..=2).map(move |d| Angle((i << 22).wrapping_add(1 << 21).wrapping_add_signed(d)))
+        });
+        let dense = (0..u32::MAX).step_by(19_937).map(Angle);
+        edges.chain(dense).chain((0..100_000).map(move |_| Angle(random.u32())))
+    }
+
+    #[test]
+    fn sine_and_cosine_stay_within_their_bound() {
+        let mut worst = 0.0f64;
+        for angle in sample() {
+            let (s, c) = angle.sin_cos();
+            let (sin, cos) = radians(angle).sin_cos();
+            worst = worst.max((s as f64 / ONE as f64 - sin).abs());
+            worst = worst.max((c as f64 / ONE as f64 - cos).abs());
+        }
+        std::println!("sin_cos: error 2^{}", worst.log2());
+        assert!(worst <= 2.0f64.powf(-29.8));
+    }
+
+    #[test]
+    fn the_table_is_the_nearest_sine() {
+        for (i, &entry) in SINE.iter().enumerate() {
+            let exact = (i as f64 / 1024.0 * TAU).sin() * ONE as f64;
+            assert_eq!(entry as f64, exact.round(), "{i}");
+        }
+        assert_eq!(core::mem::size_of_val(&SINE), 1024);
+    }
+
+    #[test]
+    fn quarters_are_exact_and_symmetries_hold_bit_for_bit() {
+        assert_eq!(Angle(0).sin_cos(), (0, ONE));
+        assert_eq!(Angle::QUARTER.sin_cos(), (ONE, 0));
+        assert_eq!(Angle::HALF.sin_cos(), (0, -ONE));
+        assert_eq!(Angle(3 << 30).sin_cos(), (-ONE, 0));
+        for a in sample() {
+            let (s, c) = a.sin_cos();
+            assert_eq!((-a).sin_cos(), (-s, c), "-{a:?}");
+            assert_eq!((Angle::HALF - a).sin_cos(), (s, -c), "180 - {a:?}");
+            assert_eq!((Angle::HALF + a).sin_cos(), (-s, -c), "180 + {a:?}");
+            assert_eq!((Angle::QUARTER - a).sin_cos(), (c, s), "90 - {a:?}");
+            assert!(s.abs() <= ONE && c.abs() <= ONE);
+        }
+    }
+
+    #[test]
+    fn system_a_512_sines_of_the_first_quadrant_agree() {
+        // A's table maps the closed interval [0, 90] to 512 entries of Q16.16.
+        for i in 0..512 {
+            let angle = Angle::from_ratio(i, 4 * 511);
+            let exact = (i as f64 / (4.0 * 511.0) * TAU).sin() * 65536.0;
+            assert_eq!((angle.sin() + (1 << 13)) >> 14, exact.round() as i32, "{i}");
+        }
+    }
+
+    #[test]
+    fn tangent_stays_within_its_bound() {
+        assert_eq!(Angle::QUARTER.tan(), None);
+        assert_eq!(Angle(3 << 30).tan(), None);
+        assert_eq!(Angle(1 << 29).tan(), Some(1 << 32));
+        for angle in sample() {
+            let Some(t) = angle.tan() else { continue };
+            let exact = radians(angle).tan();
+            if exact.abs() > 1000.0 {
+                continue; // the cosine has few bits left; the bound says so
+            }
+            let bound = 2.0f64.powi(-29) * (1.0 + exact * exact);
+            assert!((t as f64 / 4294967296.0 - exact).abs() <= bound, "{angle:?}");
+        }
+    }
+
+    #[test]
+    fn angles_convert_to_nearest_and_wrap() {
+        for degrees in -32768..=32767i16 {
+            let expected = (degrees as f64 / 360.0).rem_euclid(1.0) * 4294967296.0;
+            let angle = Angle::from_degrees(Q16::from_int(degrees));
+            assert_eq!(angle.0, expected.round() as u64 as u32, "{degrees}");
+            assert_eq!(Angle::from_degrees_f64(degrees as f64), angle);
+            assert_eq!(Angle::from_ratio(degrees as i32, 360), angle);
+            assert_eq!(Angle::from_ratio(-(degrees as i32), -360), angle);
+        }
+        assert_eq!(Angle::from_degrees(Q16::from_int(360)), Angle::ZERO);
+        assert_eq!(Angle::from_degrees(Q16::from_int(-90)), Angle(3 << 30));
+        assert_eq!(Angle::from_ratio(1, 0), Angle::ZERO);
+        assert_eq!(Angle::from_ratio(i32::MIN, i32::MIN), Angle::ZERO);
+        assert_eq!(Angle::from_degrees_f64(f64::NAN), Angle::ZERO);
+        assert_eq!(Angle::QUARTER * -3, Angle::QUARTER);
+        assert_eq!(Angle(u32::MAX) + Angle(1), Angle::ZERO);
+        let mut angle = Angle::ZERO;
+        angle -= Angle::QUARTER;
+        angle += Angle::HALF;
+        assert_eq!(angle, Angle::QUARTER);
+    }
+}
