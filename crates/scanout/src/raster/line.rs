@@ -34,19 +34,9 @@
 //!
 //! # Colour and depth
 //!
-//! With `k = max(0, ceil(log2 n) - 12)`, which is 0 for every line of up to 4097 pixels:
-//!
-//! ```text
-//! step  = sign(d) * floor((|d| << F) / n)      F = 20 + k for a channel U8.0
-//! value = (v0 << F + i * step + half) >> F     F = 16 + k for a depth (v in units of 1/65536: k)
-//! ```
-//!
-//! So a colour is system D's 12.20 and a depth U16.16 until the line leaves any screen, and then the
-//! fraction grows with the line. **Error**: truncation loses less than one unit of `2^-F` a step,
-//! hence less than `n 2^-F` in all, and `n <= 2^(12 + k)`: less than `2^-8` of a colour step and
-//! `2^-4` of a depth step before the one rounding to nearest. A reported colour is therefore
-//! less than `1/2 + 2^-8` from the exact rational, a depth less than `1/2 + 2^-4`; and both end
-//! *colours* are exact, because they are whole and `2^-8 < 1/2`.
+//! Linear in `i`; see `line/ramp.rs` for the equation and its proof. Both end colours are exact; a
+//! colour is less than `1/2 + 2^-8` of a step from the exact rational, a depth less than
+//! `1/2 + 2^-4`.
 //!
 //! When both ends are one pixel, the nearer end is reported (of equally near ones the darker).
 //!
@@ -54,6 +44,10 @@
 //!
 //! Coordinates are valid within `±2^26` pixels; one beyond is taken as the nearest valid one.
 //! Nothing here panics. No line width, no stipple; smooth lines are in `smooth_line`.
+
+pub(super) mod ramp;
+
+use ramp::{LongRamp, Ramp, SHORT, ShortRamp};
 
 /// The largest magnitude of a coordinate, in pixels.
 pub const MAX_COORDINATE: i32 = 1 << 26;
@@ -96,8 +90,8 @@ impl ClipRect {
 /// Walks the line from `a` to `b`: `plot(x, y, depth, colour)` once for each pixel inside `clip`,
 /// in order of increasing major coordinate. The same calls result from `b` to `a`.
 ///
-/// Cost: four 32-bit divisions a line (none of 64 bits while it has at most 4097 pixels and needs
-/// no clipping), then additions and one comparison a pixel.
+/// Cost: four 32-bit divisions a line (and none of 64 bits while it has at most 4097 pixels and
+/// needs no clipping), then additions and one comparison a pixel.
 #[inline]
 pub fn walk(a: &LineEnd, b: &LineEnd, clip: ClipRect, plot: impl FnMut(i32, i32, u16, [u8; 3])) {
     walk_with::<true, true>(a, b, clip, plot);
@@ -118,64 +112,180 @@ pub fn walk_with<const COLOUR: bool, const DEPTH: bool>(
     clip: ClipRect,
     mut plot: impl FnMut(i32, i32, u16, [u8; 3]),
 ) {
-    let Some((line, steps)) = Line::new(a, b).clipped(clip) else { return };
-    match (steps.steep, line.is_short()) {
-        (false, true) => {
-            let ramp = ShortRamp::<COLOUR, DEPTH>::new(&line, steps.first);
-            trace(&steps, ramp, plot);
-        }
-        (true, true) => {
-            let ramp = ShortRamp::<COLOUR, DEPTH>::new(&line, steps.first);
-            trace(&steps, ramp, |u, v, z, rgb| plot(v, u, z, rgb));
-        }
-        (steep, false) => {
-            let ramp = LongRamp::<COLOUR, DEPTH>::new(&line, steps.first);
-            let mut turned =
-                |u, v, z, rgb| if steep { plot(v, u, z, rgb) } else { plot(u, v, z, rgb) };
-            trace(&steps, ramp, &mut turned);
-        }
+    let Some(path) = Path::unclipped(a, b, clip) else {
+        return walk_general::<COLOUR, DEPTH>(a, b, clip, plot);
+    };
+    let ramp = ShortRamp::<COLOUR, DEPTH>::new(path.start, path.end, path.n, path.first);
+    let at = Pixel { major: path.major, minor: path.minor, sideways: path.sideways };
+    if path.steep {
+        trace(&path, at, ramp, |p, z, rgb| plot(p.minor, p.major, z, rgb));
+    } else {
+        trace(&path, at, ramp, |p, z, rgb| plot(p.major, p.minor, z, rgb));
     }
 }
 
-/// The inner loop: pixel, attributes, step. Reports (major, minor).
+/// [`walk_with`] that reports where a pixel is stored instead of where it is on the screen:
+/// `plot(cell, depth, colour)` with `cell = (y - clip.y0) * stride + (x - clip.x0)`, the index in a
+/// buffer whose first cell is the top left pixel of `clip` (a frame, or one band of it). The
+/// multiplication happens once a line, not once a pixel. `stride` is in cells, at least the width
+/// of `clip`.
+#[inline]
+pub fn walk_cells<const COLOUR: bool, const DEPTH: bool>(
+    a: &LineEnd,
+    b: &LineEnd,
+    clip: ClipRect,
+    stride: usize,
+    mut plot: impl FnMut(usize, u16, [u8; 3]),
+) {
+    let Some(path) = Path::unclipped(a, b, clip) else {
+        return walk_general::<COLOUR, DEPTH>(a, b, clip, |x, y, z, rgb| {
+            let (column, row) = (x.abs_diff(clip.x0) as usize, y.abs_diff(clip.y0) as usize);
+            plot(row.wrapping_mul(stride).wrapping_add(column), z, rgb);
+        });
+    };
+    let ramp = ShortRamp::<COLOUR, DEPTH>::new(path.start, path.end, path.n, path.first);
+    let (x, y, forward, sideways) = if path.steep {
+        (path.minor, path.major, stride, 1)
+    } else {
+        (path.major, path.minor, 1, stride)
+    };
+    let (column, row) = (x.abs_diff(clip.x0) as usize, y.abs_diff(clip.y0) as usize);
+    let diagonal = if path.sideways < 0 {
+        forward.wrapping_sub(sideways)
+    } else {
+        forward.wrapping_add(sideways)
+    };
+    let at = Cell { index: row.wrapping_mul(stride).wrapping_add(column), forward, diagonal };
+    trace(&path, at, ramp, |c, z, rgb| plot(c.index, z, rgb));
+}
+
+/// The inner loop: report, then step the position and the attributes.
 #[inline(always)]
-fn trace<R: Ramp>(steps: &Steps, mut ramp: R, mut plot: impl FnMut(i32, i32, u16, [u8; 3])) {
-    let Steps { mut major, mut minor, sideways, mut error, rise, run, last, .. } = *steps;
+fn trace<P: Place, R: Ramp>(
+    path: &Path,
+    mut at: P,
+    mut ramp: R,
+    mut plot: impl FnMut(&P, u16, [u8; 3]),
+) {
+    let Path { mut error, rise, run, mut steps, .. } = *path;
     loop {
-        plot(major, minor, ramp.depth(), ramp.rgb());
-        if major == last {
+        plot(&at, ramp.depth(), ramp.rgb());
+        if steps == 0 {
             return;
         }
-        major += 1;
+        steps -= 1;
         error += rise;
         if error >= 0 {
             error -= run;
-            minor += sideways;
+            at.diagonal();
+        } else {
+            at.forward();
         }
         ramp.advance();
     }
 }
 
-/// A line in canonical form: the ends in order of increasing major coordinate.
-struct Line {
-    steep: bool,
-    start: LineEnd,
-    end: LineEnd,
-    /// Steps along the major axis, `0..=2^27`.
-    n: u32,
-    /// Distance along the minor axis, `0..=n`.
-    m: u32,
+/// A position on the line that the two kinds of step move.
+trait Place {
+    fn forward(&mut self);
+    fn diagonal(&mut self);
 }
 
-/// The visible part of a line, ready to walk.
-struct Steps {
-    steep: bool,
-    /// Number of the first visible pixel.
-    first: u32,
+struct Pixel {
     major: i32,
     minor: i32,
-    /// Major coordinate of the last visible pixel.
-    last: i32,
+    sideways: i32,
+}
+
+impl Place for Pixel {
+    #[inline(always)]
+    fn forward(&mut self) {
+        self.major += 1;
+    }
+
+    #[inline(always)]
+    fn diagonal(&mut self) {
+        self.major += 1;
+        self.minor += self.sideways;
+    }
+}
+
+/// An index; steps are added modulo the word, so that they may be negative.
+struct Cell {
+    index: usize,
+    forward: usize,
+    diagonal: usize,
+}
+
+impl Place for Cell {
+    #[inline(always)]
+    fn forward(&mut self) {
+        self.index = self.index.wrapping_add(self.forward);
+    }
+
+    #[inline(always)]
+    fn diagonal(&mut self) {
+        self.index = self.index.wrapping_add(self.diagonal);
+    }
+}
+
+/// [`walk_with`] for a line of any length that may need clipping.
+#[cold]
+#[inline(never)]
+fn walk_general<const COLOUR: bool, const DEPTH: bool>(
+    a: &LineEnd,
+    b: &LineEnd,
+    clip: ClipRect,
+    mut plot: impl FnMut(i32, i32, u16, [u8; 3]),
+) {
+    let clamp = |e: &LineEnd| LineEnd {
+        x: e.x.clamp(-MAX_COORDINATE, MAX_COORDINATE),
+        y: e.y.clamp(-MAX_COORDINATE, MAX_COORDINATE),
+        ..*e
+    };
+    let (a, b) = (clamp(a), clamp(b));
+    let mut path = Path::new(&a, &b);
+    if path.clip(clip).is_none() {
+        return;
+    }
+    let at = Pixel { major: path.major, minor: path.minor, sideways: path.sideways };
+    let turned = |p: &Pixel, z, rgb| {
+        let (x, y) = if path.steep { (p.minor, p.major) } else { (p.major, p.minor) };
+        plot(x, y, z, rgb);
+    };
+    if path.n <= SHORT {
+        trace(
+            &path,
+            at,
+            ShortRamp::<COLOUR, DEPTH>::new(path.start, path.end, path.n, path.first),
+            turned,
+        );
+    } else {
+        trace(
+            &path,
+            at,
+            LongRamp::<COLOUR, DEPTH>::new(path.start, path.end, path.n, path.first),
+            turned,
+        );
+    }
+}
+
+/// A line in canonical form (the ends in order of increasing major coordinate), or the visible part
+/// of one, ready to walk.
+struct Path<'a> {
+    /// The end with the smaller major coordinate.
+    start: &'a LineEnd,
+    end: &'a LineEnd,
+    steep: bool,
+    /// Steps along the major axis from end to end, `0..=2^27`.
+    n: u32,
+    /// `i` of the first visible pixel.
+    first: u32,
+    /// Steps from there to the last visible pixel.
+    steps: u32,
+    /// Where the first visible pixel is.
+    major: i32,
+    minor: i32,
     /// +1 or -1: the direction of the minor axis.
     sideways: i32,
     /// `(2 m i + n) mod 2 n - 2 n`, in `-2 n..0`.
@@ -186,73 +296,50 @@ struct Steps {
     run: i32,
 }
 
-impl Line {
+impl<'a> Path<'a> {
+    /// The path of a short line with both ends in `clip`.
     #[inline(always)]
-    fn new(a: &LineEnd, b: &LineEnd) -> Self {
-        let (mut start, mut end) = (*a, *b);
-        for e in [&mut start, &mut end] {
-            e.x = e.x.clamp(-MAX_COORDINATE, MAX_COORDINATE);
-            e.y = e.y.clamp(-MAX_COORDINATE, MAX_COORDINATE);
-            e.z = e.z.min(0xffff << 16);
+    fn unclipped(a: &'a LineEnd, b: &'a LineEnd, clip: ClipRect) -> Option<Self> {
+        if !clip.contains(a.x, a.y) || !clip.contains(b.x, b.y) {
+            return None;
         }
-        let (dx, dy) = (start.x.abs_diff(end.x), start.y.abs_diff(end.y));
+        if a.x.abs_diff(b.x) > SHORT || a.y.abs_diff(b.y) > SHORT {
+            return None;
+        }
+        Some(Self::new(a, b))
+    }
+
+    /// Both ends' coordinates differ by at most 2^27.
+    #[inline(always)]
+    fn new(a: &'a LineEnd, b: &'a LineEnd) -> Self {
+        let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
         let steep = dy > dx;
-        let backwards = if steep {
-            start.y > end.y
-        } else if dx != 0 {
-            start.x > end.x
-        } else {
-            (start.z, start.rgb) > (end.z, end.rgb)
-        };
-        if backwards {
-            (start, end) = (end, start);
-        }
-        let (n, m) = if steep { (dy, dx) } else { (dx, dy) };
-        Self { steep, start, end, n, m }
-    }
-
-    /// Whether every attribute fits 32 bits with `k = 0`.
-    #[inline(always)]
-    fn is_short(&self) -> bool {
-        self.n <= 4096
-    }
-
-    /// `k` of the module's equations.
-    #[inline(always)]
-    fn extra_bits(&self) -> u32 {
-        if self.is_short() { 0 } else { (self.n - 1).ilog2() + 1 - 12 }
-    }
-
-    #[inline(always)]
-    fn clipped(self, clip: ClipRect) -> Option<(Self, Steps)> {
-        let Self { steep, ref start, ref end, n, m } = self;
-        let turn = |e: &LineEnd| if steep { (e.y, e.x) } else { (e.x, e.y) };
-        let ((major, minor), (last, far)) = (turn(start), turn(end));
-        let mut steps = Steps {
+        let (n, m, from, to) =
+            if steep { (dy, dx, (a.y, a.x), (b.y, b.x)) } else { (dx, dy, (a.x, a.y), (b.x, b.y)) };
+        let backwards = from.0 > to.0 || (n == 0 && (a.z, a.rgb) > (b.z, b.rgb));
+        let (start, end, (major, minor), far) =
+            if backwards { (b, a, to, from.1) } else { (a, b, from, to.1) };
+        Self {
+            start,
+            end,
             steep,
+            n,
             first: 0,
+            steps: n,
             major,
             minor,
-            last,
             sideways: if far < minor { -1 } else { 1 },
             error: -(n as i32),
             rise: 2 * m as i32,
             run: 2 * n as i32,
-        };
-        if !(clip.contains(start.x, start.y) && clip.contains(end.x, end.y)) {
-            steps.clip(clip, n, m)?;
         }
-        Some((self, steps))
     }
-}
 
-impl Steps {
     /// Moves the first and the last pixel into `clip`; `None` when no pixel is inside.
-    #[cold]
-    fn clip(&mut self, clip: ClipRect, n: u32, m: u32) -> Option<()> {
+    fn clip(&mut self, clip: ClipRect) -> Option<()> {
         let ClipRect { x0, y0, x1, y1 } = clip;
         let (major, minor) = if self.steep { ((y0, y1), (x0, x1)) } else { ((x0, x1), (y0, y1)) };
-        let (n, m) = (i64::from(n), i64::from(m));
+        let (n, m) = (i64::from(self.n), i64::from(self.rise / 2));
         let mut first = (i64::from(major.0) - i64::from(self.major)).max(0);
         let mut last = (i64::from(major.1) - 1 - i64::from(self.major)).min(n);
         // The values of q that are inside.
@@ -277,8 +364,8 @@ impl Steps {
             return None;
         }
         self.first = first as u32;
-        self.last = (i64::from(self.major) + last) as i32;
-        self.major = (i64::from(self.major) + first) as i32;
+        self.steps = (last - first) as u32;
+        self.major += first as i32;
         if first > 0 {
             let position = 2 * m * first + n;
             self.minor += self.sideways * (position / (2 * n)) as i32;
@@ -288,121 +375,220 @@ impl Steps {
     }
 }
 
-/// Attributes along a line.
-trait Ramp {
-    fn rgb(&self) -> [u8; 3];
-    fn depth(&self) -> u16;
-    fn advance(&mut self);
-}
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::{string::String, vec::Vec};
 
-/// `k = 0`: four 32-bit accumulators, two to a word, so that one addition steps two attributes.
-///
-/// Each lane stays within `0..2^32` on every pixel of the line (it lies between its end values), so
-/// the word always equals `high << 32 | low` though the steps may be negative.
-struct ShortRamp<const COLOUR: bool, const DEPTH: bool> {
-    /// Red U8.20, green U8.20.
-    rg: u64,
-    rg_step: u64,
-    /// Depth U16.16, blue U8.20.
-    zb: u64,
-    zb_step: u64,
-}
+    type Plotted = (i32, i32, u16, [u8; 3]);
+    const EVERYWHERE: ClipRect =
+        ClipRect { x0: i32::MIN, y0: i32::MIN, x1: i32::MAX, y1: i32::MAX };
+    const RED: [u8; 3] = [255, 0, 0];
+    const BLUE: [u8; 3] = [0, 0, 255];
 
-impl<const COLOUR: bool, const DEPTH: bool> ShortRamp<COLOUR, DEPTH> {
-    #[inline(always)]
-    fn new(line: &Line, first: u32) -> Self {
-        let n = line.n.max(1);
-        let lane = |used: bool, from: u32, to: u32, half: u32| {
-            if !used {
-                return (0, 0);
+    fn end(x: i32, y: i32) -> LineEnd {
+        LineEnd { x, y, ..LineEnd::default() }
+    }
+
+    fn pixels(a: &LineEnd, b: &LineEnd, clip: ClipRect) -> Vec<Plotted> {
+        let mut out = Vec::new();
+        walk(a, b, clip, |x, y, z, rgb| out.push((x, y, z, rgb)));
+        out
+    }
+
+    fn picture(lines: &[[i32; 4]], clip: ClipRect, width: usize, height: usize) -> String {
+        let mut cells = std::vec![b'.'; width * height];
+        for &[x0, y0, x1, y1] in lines {
+            walk_flat(&end(x0, y0), &end(x1, y1), clip, |x, y, _| {
+                let cell = &mut cells[y as usize * width + x as usize];
+                assert_eq!(*cell, b'.', "a pixel drawn twice at {x}, {y}");
+                *cell = b'#';
+            });
+        }
+        cells
+            .chunks(width)
+            .map(|row| std::str::from_utf8(row).unwrap())
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+
+    /// xorshift64*
+    struct Random(u64);
+
+    impl Random {
+        fn below(&mut self, n: u32) -> i32 {
+            self.0 ^= self.0 >> 12;
+            self.0 ^= self.0 << 25;
+            self.0 ^= self.0 >> 27;
+            ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % u64::from(n)) as i32
+        }
+
+        fn end(&mut self, size: u32) -> LineEnd {
+            let half = size as i32 / 2;
+            LineEnd {
+                x: self.below(size) - half,
+                y: self.below(size) - half,
+                z: (self.below(0xffff) as u32) << 16 | self.below(0x10000) as u32,
+                rgb: [0; 3].map(|_: u8| self.below(256) as u8),
             }
-            let size = u64::from(from.abs_diff(to) / n);
-            (u64::from(from + half), if to < from { size.wrapping_neg() } else { size })
-        };
-        let channel = |c: usize| {
-            let (from, to) = (line.start.rgb[c], line.end.rgb[c]);
-            lane(COLOUR, u32::from(from) << 20, u32::from(to) << 20, 1 << 19)
-        };
-        let (r, g, b) = (channel(0), channel(1), channel(2));
-        let z = lane(DEPTH, line.start.z, line.end.z, 1 << 15);
-        let pair = |high: u64, low: u64| (high << 32).wrapping_add(low);
-        let (rg_step, zb_step) = (pair(r.1, g.1), pair(z.1, b.1));
-        let i = u64::from(first);
-        Self {
-            rg: pair(r.0, g.0).wrapping_add(rg_step.wrapping_mul(i)),
-            rg_step,
-            zb: pair(z.0, b.0).wrapping_add(zb_step.wrapping_mul(i)),
-            zb_step,
-        }
-    }
-}
-
-impl<const COLOUR: bool, const DEPTH: bool> Ramp for ShortRamp<COLOUR, DEPTH> {
-    #[inline(always)]
-    fn rgb(&self) -> [u8; 3] {
-        if COLOUR {
-            [(self.rg >> 52) as u8, (self.rg >> 20) as u8, (self.zb >> 20) as u8]
-        } else {
-            [0; 3]
         }
     }
 
-    #[inline(always)]
-    fn depth(&self) -> u16 {
-        if DEPTH { (self.zb >> 48) as u16 } else { 0 }
+    /// The module's equations, pixel by pixel, in i128.
+    fn closed_form(a: &LineEnd, b: &LineEnd) -> Vec<Plotted> {
+        let steep = a.y.abs_diff(b.y) > a.x.abs_diff(b.x);
+        let turn = |e: &LineEnd| if steep { (e.y, e.x) } else { (e.x, e.y) };
+        let backwards =
+            turn(a).0 > turn(b).0 || (a.x, a.y) == (b.x, b.y) && (a.z, a.rgb) > (b.z, b.rgb);
+        let (a, b) = if backwards { (b, a) } else { (a, b) };
+        let (n, d) = (i128::from(turn(b).0 - turn(a).0), i128::from(turn(b).1 - turn(a).1));
+        let mut k = 0;
+        while 1 << (12 + k) < n {
+            k += 1;
+        }
+        let ramp = |v0: i128, v1: i128, extra: i32, f: i32, i: i128| {
+            let step = (((v1 - v0).abs() << extra) / n.max(1)) * (v1 - v0).signum();
+            ((v0 << extra) + i * step + (1 << (f - 1))) >> f
+        };
+        (0..=n)
+            .map(|i| {
+                let q = (2 * d.abs() * i + n).checked_div(2 * n).unwrap_or(0);
+                let (major, minor) =
+                    (i128::from(turn(a).0) + i, i128::from(turn(a).1) + d.signum() * q);
+                let (x, y) = if steep { (minor, major) } else { (major, minor) };
+                let z = ramp(a.z.into(), b.z.into(), k, 16 + k, i);
+                let c = |c: usize| ramp(a.rgb[c].into(), b.rgb[c].into(), 20 + k, 20 + k, i) as u8;
+                (x as i32, y as i32, z as u16, [c(0), c(1), c(2)])
+            })
+            .collect()
     }
 
-    #[inline(always)]
-    fn advance(&mut self) {
-        self.rg = self.rg.wrapping_add(self.rg_step);
-        self.zb = self.zb.wrapping_add(self.zb_step);
+    #[test]
+    fn pictures() {
+        let clip = ClipRect { x0: 0, y0: 0, x1: 8, y1: 5 };
+        assert_eq!(picture(&[[0, 0, 5, 2]], clip, 6, 3), "##.... ..##.. ....##");
+        assert_eq!(picture(&[[5, 2, 0, 0]], clip, 6, 3), "##.... ..##.. ....##");
+        // A tie goes towards the right end, upwards and downwards.
+        assert_eq!(picture(&[[0, 0, 2, 1]], clip, 3, 2), "#.. .##");
+        assert_eq!(picture(&[[0, 1, 2, 0]], clip, 3, 2), ".## #..");
+        assert_eq!(picture(&[[0, 0, 1, 2]], clip, 2, 3), "#. .# .#");
+        assert_eq!(
+            picture(&[[0, 0, 0, 3], [2, 1, 6, 1], [2, 3, 2, 3]], clip, 8, 5),
+            "#....... #.#####. #....... #.#..... ........"
+        );
+        assert_eq!(
+            picture(&[[-3, -1, 9, 5]], clip, 8, 5),
+            "........ ##...... ..##.... ....##.. ......##"
+        );
     }
-}
 
-/// Any `k`: one 64-bit accumulator an attribute (at most 48 bits are used).
-struct LongRamp<const COLOUR: bool, const DEPTH: bool> {
-    now: [i64; 4],
-    step: [i64; 4],
-    bits: u32,
-}
+    #[test]
+    fn the_sixteen_lines_of_system_d() {
+        // Eight octants and their eight borders, red start to blue end.
+        let ends = [(9, 0), (9, 4), (9, 9), (4, 9), (0, 9), (-4, 9), (-9, 9), (-9, 4)];
+        for (x, y) in ends.into_iter().flat_map(|(x, y)| [(x, y), (-x, -y)]) {
+            let (a, b) =
+                (LineEnd { rgb: RED, ..end(20, 20) }, LineEnd { rgb: BLUE, ..end(20 + x, 20 + y) });
+            let line = pixels(&a, &b, EVERYWHERE);
+            assert_eq!(line.len(), 10);
+            assert_eq!(line, closed_form(&a, &b));
+            assert!(line.contains(&(20, 20, 0, RED)) && line.contains(&(20 + x, 20 + y, 0, BLUE)));
+            for pair in line.windows(2) {
+                assert!(pair[0].0.abs_diff(pair[1].0).max(pair[0].1.abs_diff(pair[1].1)) == 1);
+                assert!(pair[0].3[0].abs_diff(pair[1].3[0]).abs_diff(28) <= 1);
+            }
+        }
+    }
 
-impl<const COLOUR: bool, const DEPTH: bool> LongRamp<COLOUR, DEPTH> {
-    #[inline(never)]
-    fn new(line: &Line, first: u32) -> Self {
-        let (k, n) = (line.extra_bits(), i64::from(line.n.max(1)));
-        let mut ramp = Self { now: [0; 4], step: [0; 4], bits: k };
-        for c in 0..4 {
-            if (c < 3 && !COLOUR) || (c == 3 && !DEPTH) {
+    #[test]
+    fn equals_closed_form_reverse_and_cells() {
+        let mut random = Random(1);
+        for i in 0..20_000 {
+            let size = [3, 12, 60, 300][i % 4];
+            let (a, b) = (random.end(size), random.end(size));
+            let line = pixels(&a, &b, EVERYWHERE);
+            assert_eq!(line, pixels(&b, &a, EVERYWHERE));
+            if i % 4 < 3 || i % 16 == 3 {
+                assert_eq!(line, closed_form(&a, &b));
+                let frame = ClipRect { x0: -200, y0: -160, x1: 200, y1: 160 };
+                let mut cells = Vec::new();
+                walk_cells::<true, true>(&a, &b, frame, 401, |c, z, rgb| {
+                    cells.push((c as i32 % 401 - 200, c as i32 / 401 - 160, z, rgb));
+                });
+                assert_eq!(cells, line);
+            }
+        }
+    }
+
+    #[test]
+    fn clipping_never_moves_a_pixel() {
+        let mut random = Random(2);
+        for i in 0..20_000 {
+            let size = [8, 40, 200, 20_000][i % 4];
+            if i % 4 == 3 && i % 64 != 3 {
                 continue;
             }
-            let value = |e: &LineEnd| match c {
-                3 => i64::from(e.z) << k,
-                _ => i64::from(e.rgb[c]) << (20 + k),
-            };
-            let half = if c == 3 { 1 << (15 + k) } else { 1 << (19 + k) };
-            let (from, to) = (value(&line.start), value(&line.end));
-            ramp.step[c] = (to - from) / n;
-            ramp.now[c] = from + half + ramp.step[c] * i64::from(first);
+            let (a, b) = (random.end(size), random.end(size));
+            let (p, q) = (random.end(size), random.end(size));
+            let clip = ClipRect { x0: p.x, y0: p.y, x1: p.x.max(q.x), y1: p.y.max(q.y) };
+            let mut expected = closed_form(&a, &b);
+            expected.retain(|p| clip.contains(p.0, p.1));
+            assert_eq!(pixels(&a, &b, clip), expected, "{a:?} {b:?} {clip:?}");
+            let mut flat = Vec::new();
+            walk_with::<false, false>(&b, &a, clip, |x, y, z, rgb| flat.push((x, y, z, rgb)));
+            expected.iter_mut().for_each(|p| (p.2, p.3) = (0, [0; 3]));
+            assert_eq!(flat, expected);
         }
-        ramp
-    }
-}
-
-impl<const COLOUR: bool, const DEPTH: bool> Ramp for LongRamp<COLOUR, DEPTH> {
-    #[inline(always)]
-    fn rgb(&self) -> [u8; 3] {
-        [0, 1, 2].map(|c| (self.now[c] >> (20 + self.bits)) as u8)
     }
 
-    #[inline(always)]
-    fn depth(&self) -> u16 {
-        (self.now[3] >> (16 + self.bits)) as u16
-    }
-
-    #[inline(always)]
-    fn advance(&mut self) {
-        for (now, step) in self.now.iter_mut().zip(self.step) {
-            *now += step;
+    #[test]
+    fn attributes_stay_near_the_exact_rational() {
+        let mut random = Random(3);
+        for size in [20, 500, 4096, 4098, 30_000, 1 << 22] {
+            for _ in 0..20 {
+                let (a, b) = (random.end(size), random.end(size));
+                let line = pixels(&a, &b, ClipRect { x0: -9000, y0: -9000, x1: 9000, y1: 9000 });
+                let steep = a.y.abs_diff(b.y) > a.x.abs_diff(b.x);
+                let (from, to) = if steep { (a.y, b.y) } else { (a.x, b.x) };
+                let n = i64::from(to - from);
+                for (x, y, z, rgb) in line {
+                    let i = i64::from(if steep { y } else { x } - from);
+                    // Errors times |n|, in units of 2^-8 and 2^-16.
+                    let exact = |v0: i64, v1: i64| v0 * n + (v1 - v0) * i;
+                    for (c, got) in rgb.into_iter().enumerate() {
+                        let error = exact(a.rgb[c].into(), b.rgb[c].into()) - i64::from(got) * n;
+                        let error = error.abs();
+                        assert!(256 * error < (128 + 1) * n.abs());
+                        assert!(i != 0 && i != n || error == 0);
+                    }
+                    let error = exact(a.z.into(), b.z.into()).abs_diff((i64::from(z) * n) << 16);
+                    assert!(error < (0x8000 + 0x1000) * n.unsigned_abs());
+                }
+            }
         }
+    }
+
+    #[test]
+    fn extremes_neither_overflow_nor_panic() {
+        let values = [i32::MIN, -MAX_COORDINATE, -1, 0, 3, MAX_COORDINATE, i32::MAX];
+        let small = ClipRect { x0: 0, y0: 0, x1: 4, y1: 4 };
+        let corner = ClipRect { x0: i32::MAX - 3, y0: i32::MAX - 3, x1: i32::MAX, y1: i32::MAX };
+        let inside_out = ClipRect { x0: i32::MAX, y0: 0, x1: i32::MIN, y1: i32::MAX };
+        for i in 0..values.len().pow(4) {
+            let v = [0, 1, 2, 3].map(|d| values[i / values.len().pow(d) % values.len()]);
+            let a = LineEnd { z: u32::MAX, rgb: [255; 3], ..end(v[0], v[1]) };
+            let b = end(v[2], v[3]);
+            let line = pixels(&a, &b, small);
+            assert!(line.len() <= 4 && line.iter().all(|p| small.contains(p.0, p.1)));
+            assert_eq!(line, pixels(&b, &a, small));
+            assert!(pixels(&a, &b, corner).iter().all(|p| corner.contains(p.0, p.1)));
+            assert_eq!(pixels(&a, &b, inside_out), []);
+        }
+        let far = |x, y| LineEnd { z: u32::MAX, ..end(x, y) };
+        assert_eq!(pixels(&far(1, 1), &far(2, 2), small)[1], (2, 2, 65535, [0; 3]));
+        // Full diagonal of the valid range, through the window.
+        let m = MAX_COORDINATE;
+        assert_eq!(pixels(&end(-m, -m), &end(m, m), small).len(), 4);
     }
 }
