@@ -250,3 +250,6 @@ const fn entry(n: i128, d: i128) -> Option<i64> {
         Some(q) => Some(q),
     }
 }
+
+#[cfg(test)]
+mod tests;
