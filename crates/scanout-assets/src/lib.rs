@@ -2,10 +2,10 @@
 //!
 //! Two layers:
 //!
-//! - [`obj`], [`ppm`], [`number`] and `bake::read` need neither allocator nor operating system. Firmware feeds them
+//! - [`obj`], [`ppm`], [`number`] and [`bake::read`] need neither allocator nor operating system. Firmware feeds them
 //!   the chunks that its card reader delivers; the PC's loader is built on the same code.
 //! - With the feature `std` (on by default), [`load`] reads OBJ + MTL, STL, PLY and glTF/GLB with their textures (PPM,
-//!   PGM, PNG, JPEG) into a [`Model`], and `bake` writes what firmware links and what hardware's `$readmemh` reads.
+//!   PGM, PNG, JPEG) into a [`Model`], and [`bake`] writes what firmware links and what hardware's `$readmemh` reads.
 //!
 //! What comes out is fixed point (see `scanout::mesh`): positions Q1.15 on **one** grid a model, so that seams between
 //! parts stay watertight, normals Q2.14, texture coordinates Q16.16 with v downwards. [`Placement`] reports the scale
@@ -19,6 +19,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
+pub mod bake;
 pub mod number;
 pub mod obj;
 pub mod ppm;

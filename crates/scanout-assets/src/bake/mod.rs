@@ -1,0 +1,77 @@
+//! Baked models: the `.mesh` binary that firmware uses in place, and the `.hex` tables that hardware reads.
+//!
+//! # The `.mesh` binary, version 1
+//!
+//! Little-endian. Every offset counts bytes from the beginning of the file and is a multiple of 4; a file that lies
+//! at an address divisible by 4 is read without copying (see [`Aligned`]).
+//!
+//! | byte | type | header |
+//! |---|---|---|
+//! | 0 | `[u8; 4]` | magic `SCNM` |
+//! | 4 | u16, u16 | version (1), size of this header (64) |
+//! | 8 | u32 | size of the file |
+//! | 12 | u32 | CRC-32 (IEEE, as in PNG) of all bytes from 16 to the end |
+//! | 16 | u16, u16 | number of parts, number of textures |
+//! | 20 | u32 | offset of the part records (they follow one another), texture records right after them |
+//! | 24 | i64 | scale, Q32.32: world units a mesh position of 1.0 stands for |
+//! | 32 | 3 x i64 | offset x, y, z in the world, Q32.32 |
+//! | 56 | u32, u32 | 0 |
+//!
+//! | byte | type | part record, 96 bytes |
+//! |---|---|---|
+//! | 0 | u32, u32 | name: offset, bytes (UTF-8) |
+//! | 8 | u32, u32 | positions: offset, count; `[i16; 3]`, Q1.15 |
+//! | 16 | u32, u32 | normals: offset, count; `[i16; 3]`, Q2.14 |
+//! | 24 | u32, u32 | colours: offset, count (as many as positions, or 0); `[u8; 3]` |
+//! | 32 | u32, u32 | texture coordinates: offset, count; `[i32; 2]`, Q16.16, v down |
+//! | 40 | u32, u32 | triangles: offset, count; `[u16; 3]` |
+//! | 48 | u32 | triangles of texture coordinates: offset; as many as triangles, or offset 0: none |
+//! | 52 | u32, u32 | edges: offset, count; `[u16; 2]` |
+//! | 60 | u16 | kind of the normals: 0 none, 1 one a position, 2 one a triangle |
+//! | 62 | u16 | flags: bit 0 two-sided, bit 1 bounding sphere present |
+//! | 64 | 3 x i16, u16 | bounding sphere: centre Q1.15, radius U1.15 |
+//! | 72 | 3 x u8, u8 | colour, 0 |
+//! | 76 | 3 x i32 | weights ambient, diffuse, specular, Q16.16 |
+//! | 88 | u16, u16 | shininess, texture (65535: none) |
+//! | 92 | u32 | 0 |
+//!
+//! | byte | type | texture record, 16 bytes |
+//! |---|---|---|
+//! | 0 | u16, u16 | width, height, 1 to 1024 |
+//! | 4 | u16, u16 | mip levels, 0 |
+//! | 8 | u32, u32 | RGB565 texels: offset, count of all levels |
+//!
+//! The `.hex` tables are described by [`HEX_README`], which is written beside them.
+
+mod binary;
+#[cfg(feature = "std")]
+mod hex;
+#[cfg(feature = "std")]
+mod write;
+
+pub use binary::{Aligned, BakeError, BakedMesh, BakedPart, read};
+#[cfg(feature = "std")]
+pub use hex::{HEX_README, HexError, hex_files};
+#[cfg(feature = "std")]
+pub use write::{to_binary, write_binary, write_hex};
+
+/// First bytes of a `.mesh` file.
+pub const MAGIC: [u8; 4] = *b"SCNM";
+/// Version of the format that this library writes and reads.
+pub const VERSION: u16 = 1;
+
+const HEADER: usize = 64;
+const PART: usize = 96;
+const TEXTURE: usize = 16;
+/// "No texture".
+const NO_TEXTURE: u16 = u16::MAX;
+
+/// CRC-32 (IEEE 802.3), bit by bit: slow but without a table; about 60 cycles a byte on a Cortex-M.
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0u32, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |c, _| (c >> 1) ^ (0xedb8_8320 & (c & 1).wrapping_neg()))
+    })
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests;
