@@ -4,7 +4,7 @@
 //!  clip = projection * view * world          visible: -w <= x, y <= w  and  0 <= z <= w
 //!
 //!            y (v)                           z = 0 at the near plane, z = w at the far plane
-//!            |    far                        w = distance along the view axis, in world units (perspective)
+//!            |    far                        w = distance along the view axis (perspective)
 //!       _____|______                         w = 1 (orthographic)
 //!       \    |     /                         x right, y up
 //!        \___|____/  near
@@ -16,10 +16,11 @@
 //! | constructor | view | projection | source |
 //! |---|---|---|---|
 //! | [`Camera::look_at`] | [`view::look_at`] | any of [`projection`] | systems A and E |
-//! | [`Camera::off_axis`] | along the screen's normal | sheared frustum through a [`Screen`] | Kooima 2009; system C |
+//! | [`Camera::off_axis`] | along a [`Screen`]'s normal | frustum through it | Kooima 2009; system C |
 //! | [`Camera::stereo_pair`] | parallel axes | sheared towards the convergence distance | |
 //!
-//! Formats: matrices Q32.32, rounded to nearest once an entry; positions Q16.16; see [`crate::math`].
+//! Formats: matrices Q32.32, rounded to nearest once an entry; positions Q16.16; see
+//! [`crate::math`].
 //!
 //! Nothing here panics: a camera that can't be is a [`CameraError`].
 //!
@@ -63,7 +64,8 @@ pub enum CameraError {
     UpAlongGaze,
     /// The field of view is zero, 180 degrees or more, or the focal factor isn't positive.
     FieldOfView,
-    /// Width, height, aspect ratio, scale or frame isn't positive, or the matrix would leave its format.
+    /// Width, height, aspect ratio, scale or frame isn't positive, or the matrix would leave its
+    /// format.
     Size,
     /// The near plane isn't in front of the eye, or the far plane isn't beyond the near plane.
     Depth,
@@ -121,8 +123,9 @@ impl Camera {
         Ok(Camera { view, projection, viewpoint })
     }
 
-    /// A window into the world: what `eye` sees through the rectangle `screen` (Kooima's generalised perspective
-    /// projection). The view axis is the screen's normal, whatever the eye looks at.
+    /// A window into the world: what `eye` sees through the rectangle `screen` (Kooima's
+    /// generalised perspective projection). The view axis is the screen's normal, whatever the eye
+    /// looks at.
     ///
     /// ```text
     ///  vr, vu, vn = screen's right, up, normal         va, vb, vc = corners - eye
@@ -130,12 +133,13 @@ impl Camera {
     ///  x_clip = (2 d / W) x + (vr . (va + vb) / W) z    y likewise    w = -z
     /// ```
     ///
-    /// The screen's own plane may lie anywhere against near and far; a point on the screen appears where it is.
+    /// The screen's own plane may lie anywhere against near and far; a point on the screen appears
+    /// where it is.
     ///
     /// # Errors
     ///
-    /// [`CameraError::Depth`], [`CameraError::NoScreen`], [`CameraError::BehindScreen`], or [`CameraError::Size`] when
-    /// the eye is so far aside that the matrix leaves Q32.32.
+    /// [`CameraError::Depth`], [`CameraError::NoScreen`], [`CameraError::BehindScreen`], or
+    /// [`CameraError::Size`] when the eye is so far aside that the matrix leaves Q32.32.
     pub const fn off_axis(
         eye: Vec3,
         screen: &Screen,
@@ -166,8 +170,9 @@ impl Camera {
         }
     }
 
-    /// This camera's left and right eye: `eye_distance` apart along u, axes parallel, frusta sheared so that a point at
-    /// `convergence` along the view axis has no parallax (nearer points stand out of the screen).
+    /// This camera's left and right eye: `eye_distance` apart along u, axes parallel, frusta
+    /// sheared so that a point at `convergence` along the view axis has no parallax (nearer points
+    /// stand out of the screen).
     ///
     /// ```text
     ///  left:   x_eye + e / 2,   m02 + m00 e / (2 c)          right: the opposite
@@ -175,8 +180,8 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// [`CameraError::NotPerspective`]; [`CameraError::Stereo`] for `eye_distance` < 0 or `convergence` <= 0;
-    /// [`CameraError::Size`] when the shear leaves Q32.32.
+    /// [`CameraError::NotPerspective`]; [`CameraError::Stereo`] for `eye_distance` < 0 or
+    /// `convergence` <= 0; [`CameraError::Size`] when the shear leaves Q32.32.
     pub const fn stereo_pair(
         &self,
         eye_distance: Q16,

@@ -10,18 +10,20 @@
 //!  fy = 1 / tan(fovy / 2), fx = fy / aspect
 //! ```
 //!
-//! z runs from 0 (near) to w (far), so that depth is an unsigned number. System B's equation 13 lets z / w run from +1
-//! (near) to -1 (far): `z_B = w - 2 z`.
+//! z runs from 0 (near) to w (far), so that depth is an unsigned number. System B's equation 13
+//! lets z / w run from +1 (near) to -1 (far): `z_B = w - 2 z`.
 //!
-//! Entries are Q32.32, each rounded to nearest once from exact products (for [`perspective`], from a cotangent with an
-//! error of 2^-29 (1 + cot^2)).
+//! Entries are Q32.32, each rounded to nearest once from exact products (for [`perspective`], from
+//! a cotangent with an error of 2^-29 (1 + cot^2)).
 //!
-//! What it will not do: an infinite far plane, reversed depth; for sheared frusta see [`super::Camera::off_axis`].
+//! What it will not do: an infinite far plane, reversed depth; for sheared frusta see
+//! [`super::Camera::off_axis`].
 
 use super::{CameraError, entry};
 use crate::math::{Angle, Mat4, Q16, div_nearest};
 
-/// Perspective with a vertical field of view of `fovy` (0 - 180 degrees, both excluded) and `aspect` = width / height.
+/// Perspective with a vertical field of view of `fovy` (0 - 180 degrees, both excluded) and
+/// `aspect` = width / height.
 ///
 /// # Errors
 ///
@@ -49,13 +51,13 @@ pub const fn perspective(
     with_factors(fx, fy, near, far)
 }
 
-/// Perspective with `focal` = 1 / tan(fovy / 2) given as a number (system B's `fov_const`) and `aspect` = height / width
-/// (B's `aspect_ratio`, equation 14): fx = focal * aspect, fy = focal.
+/// Perspective with `focal` = 1 / tan(fovy / 2) given as a number (system B's `fov_const`) and
+/// `aspect` = height / width (B's `aspect_ratio`, equation 14): fx = focal * aspect, fy = focal.
 ///
 /// # Errors
 ///
-/// [`CameraError::FieldOfView`] for `focal` <= 0, [`CameraError::Size`] for `aspect` <= 0, [`CameraError::Depth`] unless
-/// 0 < near < far.
+/// [`CameraError::FieldOfView`] for `focal` <= 0, [`CameraError::Size`] for `aspect` <= 0,
+/// [`CameraError::Depth`] unless 0 < near < far.
 pub const fn perspective_focal(
     focal: Q16,
     aspect_height_over_width: Q16,
@@ -91,8 +93,8 @@ pub(super) const fn with_factors(
     Ok(Mat4 { m: [[fx, 0, 0, 0], [0, fy, 0, 0], [0, 0, a, b], [0, 0, -ONE, 0]] })
 }
 
-/// Orthographic: a box of `width` x `height` world units about the view axis. `near` and `far` are distances along it
-/// and may be negative (behind the eye), as nothing is divided by them.
+/// Orthographic: a box of `width` x `height` world units about the view axis. `near` and `far` are
+/// distances along it and may be negative (behind the eye), as nothing is divided by them.
 ///
 /// # Errors
 ///
@@ -113,12 +115,13 @@ pub const fn orthographic(
     parallel(x, y, near, far)
 }
 
-/// Orthographic by system E's windowing transform: `pixels_per_unit` pixels of a frame of `frame` = (width, height)
-/// pixels to each world unit, the view axis at the frame's middle.
+/// Orthographic by system E's windowing transform: `pixels_per_unit` pixels of a frame of `frame` =
+/// (width, height) pixels to each world unit, the view axis at the frame's middle.
 ///
 /// # Errors
 ///
-/// [`CameraError::Size`] for a scale <= 0 or an empty frame, [`CameraError::Depth`] unless near < far.
+/// [`CameraError::Size`] for a scale <= 0 or an empty frame, [`CameraError::Depth`] unless near <
+/// far.
 pub const fn windowing(
     pixels_per_unit: Q16,
     frame: (u16, u16),

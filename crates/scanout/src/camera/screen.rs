@@ -1,23 +1,32 @@
-//! The off-axis camera: an eye before a screen that stands in the world (head tracking, mirrors, walls of displays).
+//! The off-axis camera: an eye before a screen that stands in the world (head tracking, mirrors,
+//! walls of displays).
 //!
 //! ```text
-//!    upper left  c---------------.
-//!                |               |         va = a - eye   vr = (b - a) / |b - a|     right
-//!                |    screen     |         vb = b - eye   vu = (c - a) / |c - a|     up
-//!                |               |         vc = c - eye   vn = vr x vu               towards the eye
-//!    lower left  a---------------b  lower right
+//!  upper left  c---------------.
+//!              |               |             va = a - eye   vr = (b - a) / |b - a|   right
+//!              |    screen     |             vb = b - eye   vu = (c - a) / |c - a|   up
+//!              |               |             vc = c - eye   vn = vr x vu             to the eye
+//!  lower left  a---------------b  lower right
 //!
-//!                        eye                d = -vn . va   distance of the eye from the screen's plane
+//!                      eye                   d = -vn . va   the eye's distance from the plane
 //! ```
 //!
-//! R. Kooima, *Generalized Perspective Projection* (2009), with the near plane cancelled: 2 n / (r - l) = 2 d / W and
-//! (r + l) / (r - l) = vr . (va + vb) / W. System C's formula x' = xv + (x - xv) (640 - zv) / (z - zv) is the case of an
-//! upright screen of 640 x 480 world units.
+//! R. Kooima, *Generalized Perspective Projection* (2009), with the near plane cancelled:
 //!
-//! Inner products are exact sums of Q2.30 x Q16.16 in 128 bits; each entry is rounded to nearest once. A point's place on
-//! the screen is off by less than 2^-27 of the sum of its and the eye's distances, divided by the angle's sine.
+//! ```text
+//!  2 n / (r - l) = 2 d / W          (r + l) / (r - l) = vr . (va + vb) / W
+//! ```
 //!
-//! What it will not do: curved or slanted (non-rectangular) screens: vu is made perpendicular to vr.
+//! System C's formula x' = xv + (x - xv) (640 - zv) / (z - zv) is the case of an upright screen of
+//! 640 x 480 world units.
+//!
+//! Inner products are exact sums of Q2.30 x Q16.16 in 128 bits; each entry is rounded to nearest
+//! once. Against Kooima's own formula in f64 an entry's error is at most 2^-27 times the ratio that
+//! magnifies it: the distance from the eye to the screen's corners over the screen's side (tested).
+//! System C's cube falls within 2^-22 pixel of C's formula.
+//!
+//! What it will not do: curved or slanted (non-rectangular) screens: vu is made perpendicular to
+//! vr.
 
 use super::projection::with_factors;
 use super::view::{cross, direction, from_basis};

@@ -11,9 +11,9 @@
 //!       | 0  0  0   1        |
 //! ```
 //!
-//! The cross product up x (eye - focal point) is exact, so `up` counts as parallel only when it is so bit for bit.
-//! Axes are Q2.30 with an error of at most 2^-28.5 a component, so a point's error is below
-//! 2^-28 times its distance from the eye plus 2^-28 times the eye's from the origin.
+//! The cross product up x (eye - focal point) is exact, so `up` counts as parallel only when it is
+//! so bit for bit. Axes are Q2.30 with an error of at most 2^-28.5 a component, so a point's error
+//! is below 2^-28 times its distance from the eye plus 2^-28 times the eye's from the origin.
 //!
 //! What it will not do: roll (turn `up` instead).
 
@@ -24,8 +24,8 @@ use crate::math::{Mat4, Vec3, normalise, shift_right_nearest};
 ///
 /// # Errors
 ///
-/// [`CameraError::NoGaze`] when eye and focal point coincide, [`CameraError::UpAlongGaze`] when `up` is zero or parallel
-/// to the gaze.
+/// [`CameraError::NoGaze`] when eye and focal point coincide, [`CameraError::UpAlongGaze`] when
+/// `up` is zero or parallel to the gaze.
 pub const fn look_at(eye: Vec3, focal_point: Vec3, up: Vec3) -> Result<Mat4, CameraError> {
     let (e, f, t) = (eye.raw(), focal_point.raw(), up.raw());
     let back = [e[0] as i64 - f[0] as i64, e[1] as i64 - f[1] as i64, e[2] as i64 - f[2] as i64];

@@ -1,6 +1,7 @@
 //! `Q16`: the user's scalar, Q16.16.
 //!
-//! value = n / 2^16, n an i32: range [-32768, 32768 - 2^-16], resolution 2^-16 (system A's 32-bit format).
+//! value = n / 2^16, n an i32: range [-32768, 32768 - 2^-16], resolution 2^-16 (system A's 32-bit
+//! format).
 //!
 //! | operation | rounding | beyond the range |
 //! |---|---|---|
@@ -58,7 +59,8 @@ impl Q16 {
     /// Host convenience: nearest, ties away from zero, saturating; NaN gives 0.
     pub const fn from_f64(x: f64) -> Q16 {
         let scaled = x * 65536.0;
-        // The addition may round up just below a half; 53 bits leave that to values beyond Q16's resolution.
+        // The addition may round up just below a half; 53 bits leave that to values beyond Q16's
+        // resolution.
         Q16(saturate32((if scaled < 0.0 { scaled - 0.5 } else { scaled + 0.5 }) as i64))
     }
 
@@ -79,7 +81,8 @@ impl Q16 {
         Q16(saturate32((self.0 as i64 * other.0 as i64 + 0x8000) >> 16))
     }
 
-    /// `2^32 / n` towards zero (system A: `inv32_inst`); saturates for |n| <= 2, and gives `MAX` for zero.
+    /// `2^32 / n` towards zero (system A: `inv32_inst`); saturates for |n| <= 2, and gives `MAX`
+    /// for zero.
     #[inline]
     pub const fn recip(self) -> Q16 {
         if self.0 == 0 { Q16::MAX } else { Q16(saturate32((1i64 << 32) / self.0 as i64)) }
@@ -189,7 +192,8 @@ pub(crate) const fn saturate64(n: i128) -> i64 {
     }
 }
 
-/// `n / 2^bits`, nearest, ties upwards; `bits` in 1 - 126. Exact in that no intermediate sum overflows.
+/// `n / 2^bits`, nearest, ties upwards; `bits` in 1 - 126. Exact in that no intermediate sum
+/// overflows.
 #[inline]
 pub(crate) const fn shift_right_nearest(n: i128, bits: u32) -> i128 {
     (n >> bits) + ((n >> (bits - 1)) & 1)

@@ -1,14 +1,15 @@
 //! 4 x 4 matrices in Q32.32: object to world, world to eye, eye to clip.
 //!
 //! ```text
-//! | m00 m01 m02 m03 | | x |      row major: m[row][column]; column vectors, so A B v applies B first
+//! | m00 m01 m02 m03 | | x |      row major: m[row][column]; column vectors: A B v applies B first
 //! | m10 m11 m12 m13 | | y |      the translation is the last column
 //! | m20 m21 m22 m23 | | z |      entries in [-2^31, 2^31), resolution 2^-32
 //! | m30 m31 m32 m33 | | w |
 //! ```
 //!
-//! Sums of products are exact in 128 bits and rounded to nearest once; what leaves the format saturates. A product
-//! skips exact zeros, so the sparse matrices of cameras and placements cost a third of the 64 products.
+//! Sums of products are exact in 128 bits and rounded to nearest once; what leaves the format
+//! saturates. A product skips exact zeros: perspective times view takes 17 of the 64
+//! products, placement times placement 40.
 //!
 //! What it will not do: project (see the transform stage), invert projections.
 
@@ -111,8 +112,9 @@ impl Mat4 {
         out
     }
 
-    /// The direction (x, y, z, 0) transformed, its first three components in Q32.32: exact before one rounding to
-    /// nearest; saturates. Normals need the inverse's transpose when axes are scaled unlike.
+    /// The direction (x, y, z, 0) transformed, its first three components in Q32.32: exact before
+    /// one rounding to nearest; saturates. Normals need the inverse's transpose when axes are
+    /// scaled unlike.
     pub const fn transform_direction(&self, d: Vec3) -> [i64; 3] {
         let mut out = [0; 3];
         let mut row = 0;
@@ -130,9 +132,11 @@ impl Mat4 {
         m[0] as i128 * x as i128 + m[1] as i128 * y as i128 + m[2] as i128 * z as i128
     }
 
-    /// The inverse of a rotation and translation: transposed, and the translation turned back. Rounded to nearest.
+    /// The inverse of a rotation and translation: transposed, and the translation turned back.
+    /// Rounded to nearest; a point comes back to within 2^-26 of its and the translation's length.
     ///
-    /// Right only if the upper left 3 x 3 is a rotation and the last row 0 0 0 1; neither is checked.
+    /// Right only if the upper left 3 x 3 is a rotation and the last row 0 0 0 1; neither is
+    /// checked.
     pub const fn inverse_rigid(&self) -> Mat4 {
         let m = &self.m;
         let mut out = Mat4::IDENTITY;
@@ -162,9 +166,10 @@ impl Mat4 {
 
     /// The inverse of any affine matrix (last row 0 0 0 1), by cofactors.
     ///
-    /// Each row is first scaled by a power of two to 40 bits, so that a placement in millimetres or kilometres keeps
-    /// its relative precision; error about 2^-38 times the condition number, relative to the greatest entry of its
-    /// column. `None` when the determinant is zero, the last row is another, or an entry of the inverse exceeds Q32.32.
+    /// Each row is first scaled by a power of two to 40 bits, so that a placement in millimetres or
+    /// kilometres keeps its relative precision; error about 2^-38 times the condition number,
+    /// relative to the greatest entry of its column. `None` when the determinant is zero, the last
+    /// row is another, or an entry of the inverse exceeds Q32.32.
     pub const fn inverse_affine(&self) -> Option<Mat4> {
         let m = &self.m;
         if m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0 || m[3][3] != ONE {

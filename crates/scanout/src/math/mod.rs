@@ -10,11 +10,12 @@
 //! | [`isqrt32`], [`isqrt64`] | integers | all | floor |
 //! | [`recip32`] | 32-bit mantissa | [2^31, 2^32) | floor |
 //!
-//! Contract of the module: **nothing here panics**, for any input, in debug builds too. A sum that leaves its format
-//! saturates; the product `Q16 * Q16` keeps the middle 32 bits as hardware does; what has no answer (the direction of a
-//! zero vector) is an `Option`.
+//! Contract of the module: **nothing here panics**, for any input, in debug builds too. A sum that
+//! leaves its format saturates; the product `Q16 * Q16` keeps the middle 32 bits as hardware does;
+//! what has no answer (the direction of a zero vector) is an `Option`.
 //!
-//! Floating point appears only in `from_f64` and `to_f64`: host conveniences at the door, never called by the pipeline.
+//! Floating point appears only in `from_f64` and `to_f64`: host conveniences at the door, never
+//! called by the pipeline.
 //!
 //! What it will not do: arbitrary formats, logarithms, inverse trigonometry.
 
@@ -35,6 +36,13 @@ pub use root::{isqrt32, isqrt64, rsqrt32};
 pub use trig::Angle;
 pub use unit::{Unit3, normalise, normalise_q14};
 pub use vec::Vec3;
+
+/// The tables, for circuits and firmware that hold them in a ROM of their own.
+pub mod tables {
+    pub use super::recip::RECIP_SEED;
+    pub use super::root::RSQRT_SEED;
+    pub use super::trig::SINE;
+}
 
 pub(crate) use fixed::{div_nearest, q32_from_f64, saturate32, saturate64, shift_right_nearest};
 

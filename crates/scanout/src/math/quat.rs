@@ -8,9 +8,9 @@
 //!     | 2 (x z - y s)       2 (y z + x s)       1 - 2 (x^2 + y^2) |
 //! ```
 //!
-//! Components are Q2.30, in [-1, 1], rounded to nearest. A product of unit quaternions drifts from unit length by
-//! less than 2^-29 a product; [`Quat::renormalise`] brings it back. An animation that sets its angle afresh (B's
-//! turntable) never drifts at all.
+//! Components are Q2.30, in [-1, 1], rounded to nearest. A product of unit quaternions drifts from
+//! unit length by less than 2^-29 a product; [`Quat::renormalise`] brings it back. An animation
+//! that sets its angle afresh (B's turntable) never drifts at all.
 //!
 //! What it will not do: interpolate (slerp), Euler angles.
 
@@ -36,9 +36,11 @@ impl Quat {
     /// No rotation.
     pub const IDENTITY: Quat = Quat { s: 1 << 30, x: 0, y: 0, z: 0 };
 
-    /// Rotation by `angle` about `axis` (any length), counter-clockwise seen from the axis' tip. `None` for a zero axis.
+    /// Rotation by `angle` about `axis` (any length), counter-clockwise seen from the axis' tip.
+    /// `None` for a zero axis.
     ///
-    /// Error: at most 2^-28.5 a component. The lowest bit of `angle` (2^-32 turn) is lost in halving it.
+    /// Error: at most 2^-28.5 a component. The lowest bit of `angle` (2^-32 turn) is lost in
+    /// halving it.
     pub const fn from_axis_angle(axis: Vec3, angle: Angle) -> Option<Quat> {
         const fn part(sin: i32, axis: i32) -> i32 {
             ((sin as i64 * axis as i64 + (1 << 29)) >> 30) as i32
@@ -107,7 +109,8 @@ impl Default for Quat {
 
 impl Mul for Quat {
     type Output = Quat;
-    /// Hamilton's product: first `other`, then `self`. Each component exact before one rounding to nearest; saturates.
+    /// Hamilton's product: first `other`, then `self`. Each component exact before one rounding to
+    /// nearest; saturates.
     fn mul(self, other: Quat) -> Quat {
         fn sum(p: [(i32, i32); 4]) -> i32 {
             let total = p

@@ -4,9 +4,10 @@
 //! recip32(m) = floor((2^63 - 1) / m)      m in [2^31, 2^32), result in [2^31, 2^32)
 //! ```
 //!
-//! `m` is a mantissa with its top bit set, U0.32 in [1/2, 1); the result is 1/m in U1.31. The closed form is the
-//! definition. [`recip32`] computes it with the machine's division, [`recip32_newton`] with a 256-entry table and
-//! products of 32 x 32 -> 64 bits, as a circuit or a core without a 64-bit divider does. They agree for every `m`.
+//! `m` is a mantissa with its top bit set, U0.32 in [1/2, 1); the result is 1/m in U1.31. The
+//! closed form is the definition. [`recip32`] computes it with the machine's division,
+//! [`recip32_newton`] with a 256-entry table and products of 32 x 32 -> 64 bits, as a circuit or a
+//! core without a 64-bit divider does. They agree for every `m`.
 //!
 //! What it will not do: reciprocals of numbers that aren't normalised; see [`normalise_mantissa`].
 
@@ -18,8 +19,9 @@ pub const fn recip32(m: u32) -> u32 {
     (((1u64 << 63) - 1) / (m | 1 << 31) as u64) as u32
 }
 
-/// Seeds of [`recip32_newton`]: the reciprocal at the middle of each of the 256 steps of 2^23. 512 bytes.
-static RECIP_SEED: [u16; 256] = {
+/// Seeds of [`recip32_newton`]: the reciprocal at the middle of each of the 256 steps of 2^23. 512
+/// bytes.
+pub static RECIP_SEED: [u16; 256] = {
     let mut table = [0; 256];
     let mut i = 0;
     while i < 256 {
@@ -32,8 +34,9 @@ static RECIP_SEED: [u16; 256] = {
 
 /// [`recip32`] without a division: seed, two Newton steps, fix-up. Equal to it for every `m`.
 ///
-/// The seed is right to 2^-9, the first step makes that 2^-18, the second 2^-36 less the truncation. Newton's step
-/// `r (2 - m r)` never exceeds `1 / m` and truncation only lowers it, so the fix-up only ever adds, at most three times.
+/// The seed is right to 2^-9, the first step makes that 2^-18, the second 2^-36 less the
+/// truncation. Newton's step `r (2 - m r)` never exceeds `1 / m` and truncation only lowers it, so
+/// the fix-up only ever adds, at most three times.
 ///
 /// Cost: a table read, five products of 32 x 32 -> 64 bits, at most three subtractions.
 #[inline]
@@ -55,8 +58,9 @@ pub const fn recip32_newton(m: u32) -> u32 {
     r as u32
 }
 
-/// The leading one of `n` moved to bit 31: `(m, shift)` with `m = floor(n * 2^shift / 2^32)`, so that `m` is in
-/// [2^31, 2^32) and `n = m * 2^(32 - shift)`, truncated below `m`'s last bit (exact for `n` < 2^32).
+/// The leading one of `n` moved to bit 31: `(m, shift)` with `m = floor(n * 2^shift / 2^32)`, so
+/// that `m` is in [2^31, 2^32) and `n = m * 2^(32 - shift)`, truncated below `m`'s last bit (exact
+/// for `n` < 2^32).
 ///
 /// `shift` is the number of leading zeros, 0 - 63; zero gives `(0, 64)`.
 #[inline]

@@ -1,8 +1,10 @@
 //! Square roots of integers.
 //!
-//! - [`isqrt32`], [`isqrt64`]: `floor(sqrt(n))`, exact for every input, by the bit-a-step method: 16 or 32 steps of one
-//!   comparison, one subtraction and shifts; no division and no multiplication, so a circuit makes a bit a clock.
-//! - [`rsqrt32`]: `2^46 / sqrt(m)` by a table and one Newton step, for normalising vectors at pixels.
+//! - [`isqrt32`], [`isqrt64`]: `floor(sqrt(n))`, exact for every input, by the bit-a-step method:
+//!   16 or 32 steps of one
+//!   comparison, one subtraction and shifts, so a circuit makes a bit a clock.
+//! - [`rsqrt32`]: `2^46 / sqrt(m)` by a table and one Newton step, for normalising vectors at
+//!   pixels.
 //!
 //! What it will not do: roots of fractions (shift first), cube roots.
 
@@ -40,8 +42,9 @@ pub const fn isqrt64(n: u64) -> u32 {
     root as u32
 }
 
-/// Seeds of [`rsqrt32`]: `2^31 / sqrt(m)` at the middle of each of the 384 steps of 2^23 in [2^30, 2^32). 768 bytes.
-static RSQRT_SEED: [u16; 384] = {
+/// Seeds of [`rsqrt32`]: `2^31 / sqrt(m)` at the middle of each of the 384 steps of 2^23 in [2^30,
+/// 2^32). 768 bytes.
+pub static RSQRT_SEED: [u16; 384] = {
     let mut table = [0; 384];
     let mut i = 0;
     while i < 384 {

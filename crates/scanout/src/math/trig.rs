@@ -1,18 +1,20 @@
 //! Angles, sine, cosine and tangent.
 //!
-//! An angle is a fraction of a turn, U0.32: 2^32 is one turn, so that it wraps where angles wrap and no multiple of a
-//! turn is ever lost or gained. Sine and cosine come out in Q2.30.
+//! An angle is a fraction of a turn, U0.32: 2^32 is one turn, so that it wraps where angles wrap
+//! and no multiple of a turn is ever lost or gained. Sine and cosine come out in Q2.30.
 //!
 //! ```text
 //!   fold to the first octant:  p in [0, 2^29], the rest by symmetry
-//!   split:                     p = i 2^22 + d,  i in 0..=128,  |d| <= 2^21,  b = 2 pi d / 2^32,  |b| <= pi / 1024
-//!   sin(a + b) = sin a + cos a sin b - sin a (1 - cos b)      sin b = b - b^3 / 6,  1 - cos b = b^2 / 2
-//!   cos(a + b) = cos a - sin a sin b - cos a (1 - cos b)
+//!   split:                     p = i 2^22 + d,  i in 0..=128,  |d| <= 2^21
+//!                              b = 2 pi d / 2^32,  |b| <= pi / 1024
+//!   sin(a + b) = sin a + cos a sin b - sin a (1 - cos b)    sin b = b - b^3 / 6
+//!   cos(a + b) = cos a - sin a sin b - cos a (1 - cos b)    1 - cos b = b^2 / 2
 //! ```
 //!
-//! The table holds sin(i 90 / 256 degrees) for i in 0..256 (1 KB), computed by the compiler in 128-bit integers.
-//! Error: at most 2^-29.8 (tested over a dense sample). Folding makes the symmetries exact: sin(-a) = -sin a,
-//! sin(180 - a) = sin a, cos a = sin(90 - a); multiples of 90 degrees are exact.
+//! The table holds sin(i 90 / 256 degrees) for i in 0..256 (1 KB), computed by the compiler in
+//! 128-bit integers. Error: at most 2^-29.8 (tested over a dense sample). Folding makes the
+//! symmetries exact: sin(-a) = -sin a, sin(180 - a) = sin a, cos a = sin(90 - a); multiples of 90
+//! degrees are exact.
 //!
 //! What it will not do: inverse functions.
 
@@ -24,8 +26,8 @@ use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 #[repr(transparent)]
 pub struct Angle(pub u32);
 
-/// sin(i * 90 / 256 degrees) in Q2.30, nearest.
-static SINE: [u32; 256] = {
+/// sin(i * 90 / 256 degrees) in Q2.30, nearest; 1024 bytes.
+pub static SINE: [u32; 256] = {
     let mut table = [0; 256];
     let mut i = 0;
     while i < 256 {
@@ -68,7 +70,8 @@ impl Angle {
         Angle((((degrees.0 as i64) << 16) + 180).div_euclid(360) as u32)
     }
 
-    /// Host convenience: degrees as a float, nearest; wraps. NaN gives 0; beyond +-2^31 turns it saturates.
+    /// Host convenience: degrees as a float, nearest; wraps. NaN gives 0; beyond +-2^31 turns it
+    /// saturates.
     pub const fn from_degrees_f64(degrees: f64) -> Angle {
         let scaled = degrees * (4294967296.0 / 360.0);
         Angle((if scaled < 0.0 { scaled - 0.5 } else { scaled + 0.5 }) as i64 as u32)
@@ -84,7 +87,8 @@ impl Angle {
         Angle((n + d / 2).div_euclid(d) as u32)
     }
 
-    /// Sine and cosine in Q2.30, error at most 2^-29.8. Exact at multiples of 90 degrees, exactly symmetric.
+    /// Sine and cosine in Q2.30, error at most 2^-29.8. Exact at multiples of 90 degrees, exactly
+    /// symmetric.
     ///
     /// Cost: two table reads, eight products of 32 x 32 -> 64 bits.
     pub const fn sin_cos(self) -> (i32, i32) {
@@ -113,7 +117,8 @@ impl Angle {
 
     /// Tangent in Q32.32: sine over cosine, nearest. `None` where the cosine is zero.
     ///
-    /// Error: at most `2^-29 (1 + t^2)` for a tangent of `t`, since the cosine's error grows as it vanishes.
+    /// Error: at most `2^-29 (1 + t^2)` for a tangent of `t`, since the cosine's error grows as it
+    /// vanishes.
     pub const fn tan(self) -> Option<i64> {
         let (s, c) = self.sin_cos();
         super::div_nearest((s as i128) << 32, c as i128)

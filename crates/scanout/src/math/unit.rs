@@ -11,7 +11,8 @@
 //!
 //! A vector has no scale for the normalisations: they read integers, and every format with them.
 //!
-//! What it will not do: keep a direction at unit length by itself; a sum of directions wants normalising.
+//! What it will not do: keep a direction at unit length by itself; a sum of directions wants
+//! normalising.
 
 use super::fixed::saturate32;
 use super::root::{isqrt64, rsqrt32};
@@ -46,7 +47,8 @@ impl Unit3 {
         saturate32(sum.saturating_add(1 << 29) >> 30)
     }
 
-    /// Outer product in Q2.30, one rounding to nearest a component; of length one only if the two are perpendicular.
+    /// Outer product in Q2.30, one rounding to nearest a component; of length one only if the two
+    /// are perpendicular.
     pub const fn cross(self, other: Unit3) -> Unit3 {
         const fn minor(a: i32, b: i32, c: i32, d: i32) -> i32 {
             let difference = (a as i64 * b as i64).saturating_sub(c as i64 * d as i64);
@@ -84,7 +86,8 @@ impl Neg for Unit3 {
     }
 }
 
-/// The direction of an integer vector of any scale, Q2.30: error at most 2^-29 a component. `None` for zero.
+/// The direction of an integer vector of any scale, Q2.30: error at most 2^-29 a component. `None`
+/// for zero.
 ///
 /// ```text
 /// s = power of two that brings the greatest component to [2^30, 2^31)
@@ -146,8 +149,8 @@ pub(super) const fn normalise4(v: [i64; 4]) -> Option<[i32; 4]> {
     Some(unit)
 }
 
-/// The direction of an integer vector of any scale, Q2.14, for every pixel of Phong shading: error at most one unit
-/// (2^-14) a component. Zero gives zero.
+/// The direction of an integer vector of any scale, Q2.14, for every pixel of Phong shading: error
+/// at most one unit (2^-14) a component. Zero gives zero.
 ///
 /// ```text
 /// t = v 2^k, truncated, so that the greatest component has 16 bits
@@ -155,7 +158,8 @@ pub(super) const fn normalise4(v: [i64; 4]) -> Option<[i32; 4]> {
 /// r = round(t rsqrt32(m) / 2^33)           one bit more when m was not raised
 /// ```
 ///
-/// Cost: three products of 16 x 16 bits, [`rsqrt32`], three products of 17 x 32 -> 64 bits. No division.
+/// Cost: three products of 16 x 16 bits, [`rsqrt32`], three products of 17 x 32 -> 64 bits. No
+/// division.
 #[inline]
 pub const fn normalise_q14(v: [i32; 3]) -> [i32; 3] {
     let [ax, ay, az] = [v[0].unsigned_abs(), v[1].unsigned_abs(), v[2].unsigned_abs()];

@@ -5,8 +5,8 @@
 //! |a|   = sqrt(a . a)                    o(a, b) = a - b (a . b) / (b . b)
 //! ```
 //!
-//! Products are exact; each operation states its one rounding. What leaves [-32768, 32768) saturates.
-//! Directions of length one have a type of their own, [`Unit3`].
+//! Products are exact; each operation states its one rounding. What leaves [-32768, 32768)
+//! saturates. Directions of length one have a type of their own, [`Unit3`].
 //!
 //! What it will not do: swizzles, two- and four-component vectors.
 
@@ -58,7 +58,8 @@ impl Vec3 {
         [self.x.0, self.y.0, self.z.0]
     }
 
-    /// Inner product in Q32.32: exact; saturates from 2^31 upwards (components up to 26,754 can't reach it).
+    /// Inner product in Q32.32: exact; saturates from 2^31 upwards (components up to 26,754 can't
+    /// reach it).
     #[inline]
     pub const fn dot(self, other: Vec3) -> i64 {
         let x = self.x.0 as i64 * other.x.0 as i64;
@@ -106,9 +107,11 @@ impl Vec3 {
         }
     }
 
-    /// The part of this vector perpendicular to `against`: `a - b (a . b) / (b . b)` (system A's `orthogonalize`).
+    /// The part of this vector perpendicular to `against`: `a - b (a . b) / (b . b)` (system A's
+    /// `orthogonalize`).
     ///
-    /// The products are exact; one rounding to nearest a component, saturating. A zero `against` changes nothing.
+    /// The products are exact; one rounding to nearest a component, saturating. A zero `against`
+    /// changes nothing.
     pub const fn orthogonalise(self, against: Vec3) -> Vec3 {
         const fn dot(a: [i32; 3], b: [i32; 3]) -> i128 {
             a[0] as i128 * b[0] as i128 + a[1] as i128 * b[1] as i128 + a[2] as i128 * b[2] as i128
