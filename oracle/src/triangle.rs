@@ -135,6 +135,8 @@ pub struct Rounding {
     pub uvq: [f64; 2],
     /// Of the plane q, in the corners' unit.
     pub q: f64,
+    /// Of texture coordinates besides what comes from the planes, in texels.
+    pub texel: f64,
 }
 
 /// Something that draws one triangle into an empty picture of its own size.

@@ -104,6 +104,26 @@ fn scanout_equals_the_exact_picture() -> Result<(), Failed> {
     by_kind(3, |report, triangle| report.colour_depth(&mut ours, triangle), within(1.0 / 16.0))
 }
 
+/// `scanout`'s nearest texels, except where the exact coordinate is within its own rounding of a border between texels.
+fn scanout_equals_the_exact_texels() -> Result<(), Failed> {
+    let (mut ours, mut turn) = (ours(), 0);
+    let visit = |report: &mut Report, triangle: &Triangle| {
+        turn += 1;
+        report.texels(&mut ours, triangle, &texture(turn));
+    };
+    by_kind(8, visit, |_| Ok(()))
+}
+
+/// `scanout`'s nearest texels against llvmpipe's, pixel against pixel.
+fn scanout_equals_llvmpipe_in_texels() -> Result<(), Failed> {
+    let (mut ours, mut judge, mut turn) = (ours(), judge(), 0);
+    let visit = |report: &mut Report, triangle: &Triangle| {
+        turn += 1;
+        report.texels_against(&mut ours, &mut judge, triangle, &texture(turn));
+    };
+    by_kind(9, visit, |_| Ok(()))
+}
+
 /// `scanout` against llvmpipe, pixel against pixel.
 fn scanout_equals_llvmpipe() -> Result<(), Failed> {
     let (mut ours, mut judge) = (ours(), judge());
@@ -259,7 +279,9 @@ fn main() {
         exact("scanout_draws_shared_edges_once", || {
             shared_edges_are_drawn_once(&mut [&mut ours()])
         }),
+        exact("scanout_equals_the_exact_texels", scanout_equals_the_exact_texels),
         llvmpipe("scanout_equals_llvmpipe", scanout_equals_llvmpipe),
+        llvmpipe("scanout_equals_llvmpipe_in_texels", scanout_equals_llvmpipe_in_texels),
         exact("lines_equal_the_closed_form", lines_equal_the_closed_form),
         pillow("lines_equal_pillow", lines_equal_pillow),
     ];
