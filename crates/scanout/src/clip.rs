@@ -47,8 +47,7 @@ fn distance(plane: usize, c: &[i32; 4]) -> i64 {
 /// `a + (b - a) n / d` rounded to nearest, for 0 <= n <= d.
 fn lerp(a: i32, b: i32, n: i64, d: i64) -> i32 {
     let (n, d) = (n as i128, d as i128);
-    let step = ((b as i128 - a as i128) * n * 2 + d).div_euclid(2 * d);
-    a + step as i32
+    (a as i128 + ((b as i128 - a as i128) * n * 2 + d).div_euclid(2 * d)) as i32
 }
 
 /// The point of the edge from `a` (inside) to `b` (outside) on the plane.
@@ -184,7 +183,10 @@ mod tests {
                 let w = corner.clip[3] as i64;
                 assert!(corner.clip[2] >= -1 && w >= 0);
                 // Rounding a coordinate and w to integers can move a corner by a few guard units.
-                assert!(distance(2, &corner.clip) >= -(1 << 15) && distance(5, &corner.clip) >= -(1 << 15));
+                assert!(
+                    distance(2, &corner.clip) >= -(1 << 15)
+                        && distance(5, &corner.clip) >= -(1 << 15)
+                );
             }
         }
     }

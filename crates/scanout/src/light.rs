@@ -88,7 +88,8 @@ fn dot(a: [i32; 3], b: [i32; 3]) -> i32 {
 
 /// Whether a transform keeps angles: columns of equal length at right angles, to one part in 512.
 fn keeps_angles(m: &Mat4) -> bool {
-    let largest = m.m[..3].iter().flat_map(|r| &r[..3]).map(|v| v.unsigned_abs()).max().unwrap_or(0);
+    let largest =
+        m.m[..3].iter().flat_map(|r| &r[..3]).map(|v| v.unsigned_abs()).max().unwrap_or(0);
     let shift = (64 - largest.leading_zeros()).saturating_sub(20);
     let product = |i: usize, j: usize| -> i64 {
         (0..3).map(|k| (m.m[k][i] >> shift) * (m.m[k][j] >> shift)).sum()
@@ -181,7 +182,8 @@ impl Lighting {
             Space::Object => (normal.map(i32::from), position.map(i32::from)),
             Space::World { normal: m, position: transform } => {
                 let n = normal.map(i32::from);
-                let n = m.map(|row| (row[0] * n[0] >> 2) + (row[1] * n[1] >> 2) + (row[2] * n[2] >> 2));
+                let n =
+                    m.map(|row| (row[0] * n[0] >> 2) + (row[1] * n[1] >> 2) + (row[2] * n[2] >> 2));
                 let p = position.map(i64::from);
                 let p = [0, 1, 2].map(|i| {
                     let row = &transform.m[i];
@@ -288,7 +290,9 @@ mod tests {
         let mut worst = 0f64;
         for case in 0..4000 {
             let axis = Vec3::from_f64(random.vector(1.0));
-            let Some(q) = Quat::from_axis_angle(axis, Angle(random.unit().to_bits() as u32)) else { continue };
+            let Some(q) = Quat::from_axis_angle(axis, Angle(random.unit().to_bits() as u32)) else {
+                continue;
+            };
             let scale = if case % 2 == 0 { [1.5; 3] } else { [1.5, 0.75, 1.0] };
             let transform = Mat4::translation(Vec3::from_f64(random.vector(3.0)))
                 .mul(&q.to_mat4())
@@ -317,10 +321,12 @@ mod tests {
             let got = lighting.intensity(n, p)[0] as f64 / 16384.0;
 
             let t = transform.to_f64();
-            let world = [0, 1, 2].map(|i| (0..3).map(|k| t[i][k] * position[k]).sum::<f64>() + t[i][3]);
+            let world =
+                [0, 1, 2].map(|i| (0..3).map(|k| t[i][k] * position[k]).sum::<f64>() + t[i][3]);
             // The inverse transpose of rotation x scale is rotation x 1/scale.
             let r = q.to_mat4().to_f64();
-            let big_n = unit([0, 1, 2].map(|i| (0..3).map(|k| r[i][k] * normal[k] / scale[k]).sum()));
+            let big_n =
+                unit([0, 1, 2].map(|i| (0..3).map(|k| r[i][k] * normal[k] / scale[k]).sum()));
             let l = unit(towards.unwrap_or([0, 1, 2].map(|i| at[i] - world[i])));
             let v = unit([0, 1, 2].map(|i| eye[i] - world[i]));
             let n_l = real_dot(big_n, l);
@@ -336,7 +342,10 @@ mod tests {
 
     #[test]
     fn the_floor_holds_and_colours_count() {
-        let red = Light { kind: LightKind::Directional(Vec3::from_f64([0.0, 0.0, 2.0])), colour: [255, 0, 51] };
+        let red = Light {
+            kind: LightKind::Directional(Vec3::from_f64([0.0, 0.0, 2.0])),
+            colour: [255, 0, 51],
+        };
         let view = Viewpoint::Direction(Vec3::from_f64([0.0, 0.0, 1.0]));
         let m = material(0.0, 1.0, 0.0, 1);
         let lighting = Lighting::new(&[red], Q16::from_f64(0.2), &view, &m, &Mat4::IDENTITY);

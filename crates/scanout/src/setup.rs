@@ -206,7 +206,8 @@ mod tests {
             for y in -2..34 {
                 for x in -2..34 {
                     assert_eq!(t.covers(x, y), covered(&v, x, y), "{v:?} at {x},{y}");
-                    let boxed = (t.min[0]..t.max[0]).contains(&x) && (t.min[1]..t.max[1]).contains(&y);
+                    let boxed =
+                        (t.min[0]..t.max[0]).contains(&x) && (t.min[1]..t.max[1]).contains(&y);
                     assert!(boxed || !t.covers(x, y), "{v:?}: {x},{y} lies outside the box");
                 }
             }
@@ -237,14 +238,15 @@ mod tests {
                 if t.covers(x, y) {
                     let p = [16 * x as i128 + 8, 16 * y as i128 + 8];
                     let weight = |i: usize| {
-                        let (b, c) = (v[(i + 1) % 3].map(i128::from), v[(i + 2) % 3].map(i128::from));
+                        let (b, c) =
+                            (v[(i + 1) % 3].map(i128::from), v[(i + 2) % 3].map(i128::from));
                         (c[0] - b[0]) * (p[1] - b[1]) - (c[1] - b[1]) * (p[0] - b[0])
                     };
                     let exact: i128 = (0..3).map(|i| weight(i) * a[i] as i128).sum();
                     let got = plane.at(x, y) as i128;
-                    worst = worst.max((got * area - exact) as f64 / area as f64).max(
-                        (exact - got * area) as f64 / area as f64,
-                    );
+                    worst = worst
+                        .max((got * area - exact) as f64 / area as f64)
+                        .max((exact - got * area) as f64 / area as f64);
                 }
             }
         }

@@ -47,11 +47,7 @@ pub struct ClipMatrix {
 
 /// `v 2^-shift` rounded to nearest; `shift` may be negative.
 fn scale(v: i64, shift: i32) -> i32 {
-    if shift > 0 {
-        ((v >> (shift - 1)).wrapping_add(1) >> 1) as i32
-    } else {
-        (v << -shift) as i32
-    }
+    if shift > 0 { ((v >> (shift - 1)).wrapping_add(1) >> 1) as i32 } else { (v << -shift) as i32 }
 }
 
 impl ClipMatrix {
@@ -228,7 +224,9 @@ mod tests {
         let mut random = Random(2);
         for i in 0..1000 {
             let size = 2f64.powi(i % 56 - 28);
-            let m = ClipMatrix::new(&Mat4::from_f64([(); 4].map(|()| [(); 4].map(|()| random.unit() * size))));
+            let m = ClipMatrix::new(&Mat4::from_f64(
+                [(); 4].map(|()| [(); 4].map(|()| random.unit() * size)),
+            ));
             for corner in 0..8 {
                 let p = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { i16::MIN } else { i16::MAX });
                 assert!(m.apply(p).iter().all(|c| c.unsigned_abs() <= (1 << 30) + 4));

@@ -45,8 +45,13 @@
 //! Coordinates are valid within `±2^26` pixels; one beyond is taken as the nearest valid one.
 //! Nothing here panics. No line width, no stipple; smooth lines are in `smooth_line`.
 
+mod fill;
+mod place;
 pub(super) mod ramp;
 
+pub use fill::fill_cells;
+
+use place::{Cell, Pixel, Place};
 use ramp::{LongRamp, Ramp, SHORT, ShortRamp};
 
 /// The largest magnitude of a coordinate, in pixels.
@@ -177,73 +182,6 @@ fn trace<P: Place, R: Ramp>(
             at.forward();
         }
         ramp.advance();
-    }
-}
-
-/// A position on the line that the two kinds of step move.
-trait Place {
-    fn forward(&mut self);
-    fn diagonal(&mut self);
-}
-
-struct Pixel {
-    major: i32,
-    minor: i32,
-    sideways: i32,
-}
-
-impl Pixel {
-    #[inline(always)]
-    fn first(path: &Path) -> Self {
-        Self { major: path.major, minor: path.minor, sideways: path.sideways }
-    }
-}
-
-impl Place for Pixel {
-    #[inline(always)]
-    fn forward(&mut self) {
-        self.major += 1;
-    }
-
-    #[inline(always)]
-    fn diagonal(&mut self) {
-        self.major += 1;
-        self.minor += self.sideways;
-    }
-}
-
-/// An index; steps are added modulo the word, so that they may be negative.
-struct Cell {
-    index: usize,
-    forward: usize,
-    diagonal: usize,
-}
-
-impl Cell {
-    #[inline(always)]
-    fn first(path: &Path, clip: ClipRect, stride: usize) -> Self {
-        let &Path { major, minor, .. } = path;
-        let (x, y, forward, sideways) =
-            if path.steep { (minor, major, stride, 1) } else { (major, minor, 1, stride) };
-        let (column, row) = (x.abs_diff(clip.x0) as usize, y.abs_diff(clip.y0) as usize);
-        let diagonal = if path.sideways < 0 {
-            forward.wrapping_sub(sideways)
-        } else {
-            forward.wrapping_add(sideways)
-        };
-        Self { index: row.wrapping_mul(stride).wrapping_add(column), forward, diagonal }
-    }
-}
-
-impl Place for Cell {
-    #[inline(always)]
-    fn forward(&mut self) {
-        self.index = self.index.wrapping_add(self.forward);
-    }
-
-    #[inline(always)]
-    fn diagonal(&mut self) {
-        self.index = self.index.wrapping_add(self.diagonal);
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! With `h = floor(s / 2)`, a point of size `s` at pixel (x, y) covers columns `x - h .. x - h + s`
 //! and rows `y - h .. y - h + s`: centred for odd sizes; for even ones the spare column and row are
-//! to the left and above. That is the top-left rule for a square of side `s` about the pixel's centre:
+//! to the left and above. That is the top-left rule for a square about the pixel's centre:
 //!
 //! ```text
 //!   size 1    size 2    size 3          @ the pixel (x, y)

@@ -52,8 +52,9 @@
 //! # Limits
 //!
 //! Coordinates within `±2^25` pixels (the guard band); one beyond is taken as the nearest valid
-//! one. Nothing here panics. Weights are linear; the caller blends, in order. Cost: two 64-bit divisions
-//! and four of attributes a line, two more where clipping begins; additions only in each column.
+//! one. Nothing here panics. Weights are linear; the caller blends, in order. Cost: ten 64-bit
+//! divisions a line and a few for each bit of its length in columns when rows clip it; additions
+//! only in each column.
 
 use super::line::ramp::{LongRamp, Ramp};
 use super::line::{ClipRect, LineEnd};

@@ -110,7 +110,12 @@ pub fn spans(t: &Triangle, rows: Range<i32>, width: i32, emit: impl FnMut(i32, R
 }
 
 #[inline(always)]
-fn solve<W: Word>(t: &Triangle, rows: Range<i32>, width: i32, mut emit: impl FnMut(i32, Range<i32>)) {
+fn solve<W: Word>(
+    t: &Triangle,
+    rows: Range<i32>,
+    width: i32,
+    mut emit: impl FnMut(i32, Range<i32>),
+) {
     let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
     if top >= bottom || t.max[0] <= 0 || t.min[0] >= width {
         return;
@@ -195,8 +200,14 @@ mod tests {
     fn top_left_rule() {
         // Corners on pixel centres: the top and left edges count, the right and bottom ones do not.
         let c = |x: i32, y: i32| [16 * x + 8, 16 * y + 8];
-        assert_eq!(picture([c(1, 1), c(4, 1), c(1, 4)], 6), "......\n.###..\n.##...\n.#....\n......\n......\n");
-        assert_eq!(picture([c(4, 1), c(4, 4), c(1, 4)], 6), "......\n......\n...#..\n..##..\n......\n......\n");
+        assert_eq!(
+            picture([c(1, 1), c(4, 1), c(1, 4)], 6),
+            "......\n.###..\n.##...\n.#....\n......\n......\n"
+        );
+        assert_eq!(
+            picture([c(4, 1), c(4, 4), c(1, 4)], 6),
+            "......\n......\n...#..\n..##..\n......\n......\n"
+        );
     }
 
     #[test]

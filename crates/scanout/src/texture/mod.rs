@@ -278,12 +278,16 @@ mod tests {
 
     #[test]
     fn outside_modes_of_figure_7() {
-        let row = |wrap| (-5..9).map(move |x| outside(x, 4, wrap).map_or('.', |i| (b'0' + i as u8) as char));
+        let row = |wrap| {
+            (-5..9).map(move |x| outside(x, 4, wrap).map_or('.', |i| (b'0' + i as u8) as char))
+        };
         assert!(row(Wrap::Repeat).eq("30123012301230".chars()));
         assert!(row(Wrap::Mirror).eq("33210012332100".chars()));
         assert!(row(Wrap::Clamp).eq("00000012333333".chars()));
         assert!(row(Wrap::Border).eq(".....0123.....".chars()));
-        let odd = |wrap| (-4..7).map(move |x| outside(x, 3, wrap).map_or('.', |i| (b'0' + i as u8) as char));
+        let odd = |wrap| {
+            (-4..7).map(move |x| outside(x, 3, wrap).map_or('.', |i| (b'0' + i as u8) as char))
+        };
         assert!(odd(Wrap::Repeat).eq("20120120120".chars()));
         assert!(odd(Wrap::Mirror).eq("22100122100".chars()));
     }

@@ -178,7 +178,11 @@ mod tests {
             let cross = |a: [f64; 2], b: [f64; 2]| {
                 (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
             };
-            let l = [cross(v[1], v[2]) / case.w[0], cross(v[2], v[0]) / case.w[1], cross(v[0], v[1]) / case.w[2]];
+            let l = [
+                cross(v[1], v[2]) / case.w[0],
+                cross(v[2], v[0]) / case.w[1],
+                cross(v[0], v[1]) / case.w[2],
+            ];
             let sum: f64 = l.iter().sum();
             [0, 1].map(|k| {
                 (0..3).map(|i| l[i] * case.uv[i][k] as f64).sum::<f64>() / sum / 65536.0 * size[k]

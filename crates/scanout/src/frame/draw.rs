@@ -1,0 +1,457 @@
+//! Drawing: the prepared primitives become the pixels of some rows.
+
+use core::ops::Range;
+
+use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walk};
+use super::prepare::{geometric_normal, lighting, surface_colour};
+use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive, Traversal};
+use crate::clip::{self, Corner};
+use crate::depth;
+use crate::interpolate::Plane;
+use crate::mesh::Normals;
+use crate::output::PixelFormat;
+use crate::raster::line::{ClipRect, LineEnd, walk};
+use crate::raster::point::draw_point;
+use crate::raster::smooth_line::{SmoothEnd, walk_smooth};
+use crate::raster::triangle::{spans, tiles};
+use crate::scene::{Background, Mode, Object};
+use crate::setup::Triangle;
+use crate::shade::blend;
+use crate::texture::{Texture, TextureSetup};
+use crate::transform::{Vertex, Viewport, common_inverse_w};
+
+/// Colour and depth memory of the rows being drawn.
+struct Target<'m, F: PixelFormat> {
+    rows: Range<i32>,
+    width: usize,
+    dither: bool,
+    traversal: Traversal,
+    colour: &'m mut [F::Word],
+    depth: &'m mut [u16],
+}
+
+impl<F: PixelFormat> Target<'_, F> {
+    /// The colour and depth of row `y`.
+    #[inline(always)]
+    fn row(&mut self, y: i32) -> (&mut [F::Word], &mut [u16]) {
+        let (i, words) = ((y - self.rows.start) as usize, F::words(self.width));
+        (
+            &mut self.colour[i * words..(i + 1) * words],
+            &mut self.depth[i * self.width..(i + 1) * self.width],
+        )
+    }
+
+    #[inline(always)]
+    fn encode(&self, rgb: [u8; 3], x: i32, y: i32) -> F::Pixel {
+        if self.dither { F::encode_dithered(rgb, x, y) } else { F::encode(rgb) }
+    }
+
+    fn clip_rect(&self) -> ClipRect {
+        ClipRect { x0: 0, y0: self.rows.start, x1: self.width as i32, y1: self.rows.end }
+    }
+
+    fn clear(&mut self, background: &Background) {
+        self.depth.fill(depth::FAR);
+        for y in self.rows.clone() {
+            let (width, dither) = (self.width, self.dither);
+            let (row, _) = self.row(y);
+            match background {
+                Background::Colour(rgb) if !dither => F::fill(row, width, F::encode(*rgb)),
+                Background::Colour(rgb) => {
+                    F::fill(row, width, F::encode([0; 3]));
+                    for x in 0..width {
+                        F::store(row, x, F::encode_dithered(*rgb, x as i32, y));
+                    }
+                }
+                Background::Image(pixels) => {
+                    F::fill(row, width, F::encode([0; 3]));
+                    let picture = &pixels[y as usize * width..][..width];
+                    for (x, &rgb) in picture.iter().enumerate() {
+                        let pixel = if dither {
+                            F::encode_dithered(rgb, x as i32, y)
+                        } else {
+                            F::encode(rgb)
+                        };
+                        F::store(row, x, pixel);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Walks a triangle's covered pixels as runs.
+    #[inline(always)]
+    fn runs(&mut self, t: &Triangle, mut run: impl FnMut(&mut Self, i32, Range<i32>)) {
+        let (rows, width) = (self.rows.clone(), self.width as i32);
+        match self.traversal {
+            Traversal::Spans => spans(t, rows, width, |y, xs| run(self, y, xs)),
+            Traversal::Tiles => tiles(t, rows, width, |y, xs| run(self, y, xs)),
+        }
+    }
+
+    /// Depth, shade, output: a triangle's fragments.
+    #[inline]
+    fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, mut shader: S) {
+        self.runs(t, |target, y, xs| {
+            let dither = target.dither;
+            let (row, depths) = target.row(y);
+            let mut value = z.at(xs.start, y);
+            shader.place(xs.start, y);
+            let constant = F::encode(if S::CONSTANT { shader.colour() } else { [0; 3] });
+            let first = xs.start as usize;
+            for (i, stored) in depths[first..xs.end as usize].iter_mut().enumerate() {
+                if depth::test(stored, depth::round(value)) {
+                    let x = first + i;
+                    let pixel = if S::CONSTANT && !dither {
+                        constant
+                    } else if dither {
+                        F::encode_dithered(shader.colour(), x as i32, y)
+                    } else {
+                        F::encode(shader.colour())
+                    };
+                    F::store(row, x, pixel);
+                }
+                value = value.wrapping_add(z.gx);
+                shader.step();
+            }
+        });
+    }
+
+    /// Depth only, pushed back so that the triangle's own edges stay visible: by its steepest slope a pixel, at most 2048
+    /// steps, and two steps.
+    fn mask(&mut self, t: &Triangle, z: &Plane) {
+        let slope = (z.gx as i32).unsigned_abs().max((z.gy as i32).unsigned_abs());
+        let bias = slope.min(2048 << 16) + (2 << 16);
+        self.runs(t, |target, y, xs| {
+            let (_, depths) = target.row(y);
+            let mut value = z.at(xs.start, y);
+            for stored in &mut depths[xs.start as usize..xs.end as usize] {
+                // Rounding may leave a value just below 0, which wraps to the top.
+                let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
+                depth::test(stored, pushed as u16);
+                value = value.wrapping_add(z.gx);
+            }
+        });
+    }
+
+    #[inline]
+    fn plot(&mut self, x: i32, y: i32, z: Option<u16>, rgb: [u8; 3]) {
+        let pixel = self.encode(rgb, x, y);
+        let (row, depths) = self.row(y);
+        if z.is_none_or(|z| depth::test(&mut depths[x as usize], z)) {
+            F::store(row, x as usize, pixel);
+        }
+    }
+
+    /// Mixes a colour into what is there.
+    fn mix(&mut self, x: i32, y: i32, z: Option<u16>, rgb: [u8; 3], weight: u8) {
+        let (row, depths) = self.row(y);
+        if z.is_none_or(|z| z < depths[x as usize]) {
+            let mixed = blend(F::load(row, x as usize), rgb, weight);
+            let pixel = self.encode(mixed, x, y);
+            F::store(self.row(y).0, x as usize, pixel);
+        }
+    }
+}
+
+impl<'a> Frame<'a> {
+    /// Draws rows into the caller's memory: `colour` holds `F::words(width)` words a row, `depth` `width` words.
+    ///
+    /// # Errors
+    /// When the rows are not in the frame or the memory is too small for them.
+    pub fn draw_rows<F: PixelFormat>(
+        &self,
+        rows: Range<u16>,
+        colour: &mut [F::Word],
+        depth: &mut [u16],
+    ) -> Result<(), BandError> {
+        let width = self.settings.width as usize;
+        if rows.end > self.settings.height || rows.start > rows.end {
+            return Err(BandError::Rows { height: self.settings.height });
+        }
+        let count = rows.len();
+        let needed = (count * F::words(width), count * width);
+        if colour.len() < needed.0 || depth.len() < needed.1 {
+            return Err(BandError::Memory { colour: needed.0, depth: needed.1 });
+        }
+        let mut target = Target::<F> {
+            rows: rows.start as i32..rows.end as i32,
+            width,
+            dither: self.settings.dither,
+            traversal: self.settings.traversal,
+            colour: &mut colour[..needed.0],
+            depth: &mut depth[..needed.1],
+        };
+        target.clear(&self.scene.background);
+        for primitive in self.primitives {
+            if (primitive.top as i32) < target.rows.end
+                && primitive.bottom as i32 > target.rows.start
+            {
+                self.draw_primitive(primitive, &mut target);
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws the frame from the top in bands of `lines` lines and hands each to `sink`.
+    ///
+    /// # Errors
+    /// When the memory is too small for `lines` lines, or what the sink returns.
+    pub fn draw_bands<F: PixelFormat, E>(
+        &self,
+        lines: u16,
+        colour: &mut [F::Word],
+        depth: &mut [u16],
+        mut sink: impl FnMut(Band<F>) -> Result<(), E>,
+    ) -> Result<(), DrawError<E>> {
+        let (width, height) = (self.settings.width, self.settings.height);
+        let mut top = 0;
+        while top < height {
+            let bottom = height.min(top.saturating_add(lines.max(1)));
+            self.draw_rows::<F>(top..bottom, colour, depth).map_err(DrawError::Band)?;
+            let rows = bottom - top;
+            let band = Band {
+                top,
+                rows,
+                width,
+                colour: &colour[..rows as usize * F::words(width as usize)],
+                depth: &depth[..rows as usize * width as usize],
+            };
+            sink(band).map_err(DrawError::Sink)?;
+            top = bottom;
+        }
+        Ok(())
+    }
+
+    fn draw_primitive<F: PixelFormat>(&self, primitive: &Primitive, target: &mut Target<F>) {
+        let object = &self.scene.objects[primitive.object as usize];
+        let state = &self.objects[primitive.object as usize];
+        let painter = Painter {
+            frame: self,
+            object,
+            vertices: &self.vertices[state.first_vertex as usize..],
+            state,
+            primitive,
+        };
+        match primitive.kind() {
+            Kind::Triangle | Kind::Mask => painter.triangle(target),
+            Kind::Edge => painter.edge(target),
+            Kind::Point => painter.point(target),
+        }
+    }
+}
+
+/// Where a triangle's corners come from: most triangles need no more than their vertices, the rest is looked up where
+/// it is used.
+enum Corners<'c> {
+    Mesh([u16; 3]),
+    Clipped(&'c [Corner; 3]),
+}
+
+/// One primitive on its way through the last stages.
+struct Painter<'f> {
+    frame: &'f Frame<'f>,
+    object: &'f Object<'f>,
+    vertices: &'f [Vertex],
+    state: &'f super::ObjectState,
+    primitive: &'f Primitive,
+}
+
+impl<'f> Painter<'f> {
+    fn triangle<F: PixelFormat>(&self, target: &mut Target<F>) {
+        let triangle = self.object.mesh.triangles[self.primitive.index as usize];
+        if self.primitive.tag & CLIPPED != 0 {
+            return self.clipped_triangle(triangle, target);
+        }
+        let vertices = triangle.map(|i| &self.vertices[i as usize]);
+        let Some(t) = Triangle::new(vertices.map(|v| [v.x, v.y])) else { return };
+        self.paint(&t, vertices, &Corners::Mesh(triangle), target);
+    }
+
+    fn clipped_triangle<F: PixelFormat>(&self, triangle: [u16; 3], target: &mut Target<F>) {
+        let settings = self.frame.settings;
+        let viewport = Viewport::new(settings.width, settings.height);
+        let polygon = clip::triangle([0, 1, 2].map(|k| self.corner(k, triangle[k])));
+        let corners = polygon.corners();
+        for i in 2..corners.len() {
+            let fan = [corners[0], corners[i - 1], corners[i]];
+            let vertices = fan.map(|c| Vertex { rgb: c.rgb, ..viewport.project(&c.clip) });
+            // Rounding may leave a corner a hair outside a plane; there is nothing to see there.
+            if vertices.iter().any(|v| v.flags & crate::transform::CLIP != 0) {
+                continue;
+            }
+            if let Some(t) = Triangle::new(vertices.each_ref().map(|v| [v.x, v.y])) {
+                self.paint(&t, vertices.each_ref(), &Corners::Clipped(&fan), target);
+            }
+        }
+    }
+
+    fn full(&self, corners: &Corners, k: usize) -> Corner {
+        match corners {
+            Corners::Mesh(triangle) => self.corner(k, triangle[k]),
+            Corners::Clipped(fan) => fan[k],
+        }
+    }
+
+    fn uv(&self, corners: &Corners, k: usize) -> [i32; 2] {
+        match corners {
+            Corners::Mesh(_) => self.mesh_uv(k),
+            Corners::Clipped(fan) => fan[k].uv,
+        }
+    }
+
+    fn mesh_uv(&self, k: usize) -> [i32; 2] {
+        let mesh = self.object.mesh;
+        let triangle = mesh.uv_triangles.get(self.primitive.index as usize);
+        triangle.map_or([0; 2], |t| mesh.uvs[t[k] as usize])
+    }
+
+    /// Everything about corner `k` of the primitive's triangle, whose position has index `i`.
+    fn corner(&self, k: usize, i: u16) -> Corner {
+        let (mesh, index) = (self.object.mesh, self.primitive.index as usize);
+        let position = mesh.positions[i as usize];
+        let mut corner = Corner {
+            clip: self.state.clip.apply(position),
+            rgb: self.vertices[i as usize].rgb,
+            uv: self.mesh_uv(k),
+            ..Corner::default()
+        };
+        let phong = self.object.mode == Mode::Phong;
+        let back = self.primitive.tag & BACK != 0;
+        if phong || (back && self.object.mode == Mode::Gouraud) {
+            let normal = match mesh.normals {
+                Normals::Vertex(normals) => normals[i as usize],
+                Normals::Face(normals) => normals[index],
+                Normals::None => geometric_normal(mesh, mesh.triangles[index]),
+            };
+            let normal = if back { normal.map(|v| v.saturating_neg()) } else { normal };
+            let lighting = lighting(self.frame.scene, self.object);
+            let (n, p) = lighting.local(normal, position);
+            (corner.normal, corner.position) = (n, p);
+            if !phong {
+                corner.rgb = lighting.lit(surface_colour(self.object, i), n, p);
+            }
+        }
+        corner
+    }
+
+    /// Chooses the fragments' shader by mode, texture and fog.
+    fn paint<F: PixelFormat>(
+        &self,
+        t: &Triangle,
+        v: [&Vertex; 3],
+        corners: &Corners,
+        target: &mut Target<F>,
+    ) {
+        let z = t.plane(v.map(|v| v.z));
+        if self.primitive.kind() == Kind::Mask {
+            return target.mask(t, &z);
+        }
+        let smooth = matches!(self.object.mesh.normals, Normals::Vertex(_));
+        match self.object.mode {
+            Mode::Phong => {
+                let full = [0, 1, 2].map(|k| self.full(corners, k));
+                let (q, _) = common_inverse_w(v);
+                let shader = Phong {
+                    surface: Gouraud::new(t, v.map(|v| v.rgb)),
+                    lighting: lighting(self.frame.scene, self.object),
+                    normal: Signed::new(t, full.map(|c| c.normal), q),
+                    position: Signed::new(t, full.map(|c| c.position), q),
+                    q: Walk::new(t.plane(q.map(|q| q << 8))),
+                };
+                self.texture(t, v, &z, corners, shader, target);
+            }
+            Mode::Gouraud if smooth && self.primitive.tag & BACK != 0 => {
+                let shader = Gouraud::new(t, [0, 1, 2].map(|k| self.full(corners, k).rgb));
+                self.texture(t, v, &z, corners, shader, target);
+            }
+            Mode::Gouraud if smooth => {
+                self.texture(t, v, &z, corners, Gouraud::new(t, v.map(|v| v.rgb)), target);
+            }
+            _ => self.texture(t, v, &z, corners, Flat(self.primitive.rgb), target),
+        }
+    }
+
+    fn texture<F: PixelFormat, S: Shader>(
+        &self,
+        t: &Triangle,
+        v: [&Vertex; 3],
+        z: &Plane,
+        corners: &Corners,
+        shader: S,
+        target: &mut Target<F>,
+    ) {
+        match self.used_texture() {
+            Some(texture) => {
+                let (q, _) = common_inverse_w(v);
+                let uv = [0, 1, 2].map(|k| self.uv(corners, k));
+                let setup = TextureSetup::new(t, texture, uv, q);
+                let q = t.plane(q.map(|q| q << 8));
+                self.fog(t, v, z, Textured::new(shader, setup, q), target);
+            }
+            None => self.fog(t, v, z, shader, target),
+        }
+    }
+
+    fn used_texture(&self) -> Option<&'f Texture<'f>> {
+        self.object.material.texture.filter(|_| !self.object.mesh.uv_triangles.is_empty())
+    }
+
+    fn fog<F: PixelFormat, S: Shader>(
+        &self,
+        t: &Triangle,
+        v: [&Vertex; 3],
+        z: &Plane,
+        shader: S,
+        target: &mut Target<F>,
+    ) {
+        match &self.frame.fog {
+            Some(fog) => {
+                let (q, exponent) = common_inverse_w(v);
+                let q = Walk::new(t.plane(q.map(|q| q << 8)));
+                // Clip units: w = 2^(54 - exponent) / q; world units: 2^(m - 32) times that.
+                let shift = exponent as i32 + 9 - self.state.clip.exponent;
+                target.fill(t, z, Fogged { inner: shader, fog, q, shift });
+            }
+            None => target.fill(t, z, shader),
+        }
+    }
+
+    fn edge<F: PixelFormat>(&self, target: &mut Target<F>) {
+        let edge = self.object.mesh.edges[self.primitive.index as usize];
+        let mut ends = edge.map(|i| self.vertices[i as usize]);
+        if self.primitive.tag & CLIPPED != 0 {
+            let settings = self.frame.settings;
+            let viewport = Viewport::new(settings.width, settings.height);
+            let corner = |i: u16| Corner {
+                clip: self.state.clip.apply(self.object.mesh.positions[i as usize]),
+                rgb: surface_colour(self.object, i),
+                ..Corner::default()
+            };
+            let Some(clipped) = clip::line(corner(edge[0]), corner(edge[1])) else { return };
+            ends = clipped.map(|c| Vertex { rgb: c.rgb, ..viewport.project(&c.clip) });
+            if ends.iter().any(|v| v.flags & crate::transform::CLIP != 0) {
+                return;
+            }
+        }
+        let hidden = self.object.mode == Mode::Hidden;
+        let clip = target.clip_rect();
+        if self.object.smooth_lines {
+            let [a, b] = ends.map(|v| SmoothEnd { x: v.x, y: v.y, z: v.z, rgb: v.rgb });
+            walk_smooth(&a, &b, clip, |x, y, z, rgb, weight| {
+                target.mix(x, y, hidden.then_some(z), rgb, weight)
+            });
+        } else {
+            let [a, b] = ends.map(|v| LineEnd { x: v.x >> 4, y: v.y >> 4, z: v.z, rgb: v.rgb });
+            walk(&a, &b, clip, |x, y, z, rgb| target.plot(x, y, hidden.then_some(z), rgb));
+        }
+    }
+
+    fn point<F: PixelFormat>(&self, target: &mut Target<F>) {
+        let v = self.vertices[self.primitive.index as usize];
+        let (size, z) = (self.object.point_size as u32, depth::round(v.z));
+        draw_point(v.x >> 4, v.y >> 4, size, target.clip_rect(), |x, y| {
+            target.plot(x, y, Some(z), v.rgb)
+        });
+    }
+}

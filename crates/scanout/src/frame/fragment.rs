@@ -1,0 +1,216 @@
+//! Fragments: the colour of each covered pixel, from constants, planes, texels and per-pixel light.
+//!
+//! A [`Shader`] is placed at a pixel and stepped to the right. Stepping adds a gradient modulo 2^32, which is exactly the
+//! plane's value at the next pixel; a row always begins from the plane, so no shader remembers where it has been.
+
+use crate::interpolate::{Plane, channel};
+use crate::light::Lighting;
+use crate::math::normalise_q14;
+use crate::setup::Triangle;
+use crate::shade::{FogWeights, blend, modulate};
+use crate::texture::{TextureSetup, integer_q, reciprocal};
+
+/// Colours of fragments along a row.
+pub(super) trait Shader {
+    /// Every fragment has the same colour.
+    const CONSTANT: bool = false;
+    /// Goes to pixel (x, y).
+    fn place(&mut self, x: i32, y: i32);
+    /// Goes one pixel to the right.
+    fn step(&mut self);
+    /// The colour here.
+    fn colour(&self) -> [u8; 3];
+}
+
+/// A plane that walks along a row.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Walk {
+    plane: Plane,
+    value: u32,
+}
+
+impl Walk {
+    pub(super) fn new(plane: Plane) -> Walk {
+        Walk { plane, value: 0 }
+    }
+    #[inline(always)]
+    fn place(&mut self, x: i32, y: i32) {
+        self.value = self.plane.at(x, y);
+    }
+    #[inline(always)]
+    fn step(&mut self) {
+        self.value = self.value.wrapping_add(self.plane.gx);
+    }
+}
+
+/// One colour.
+pub(super) struct Flat(pub [u8; 3]);
+
+impl Shader for Flat {
+    const CONSTANT: bool = true;
+    #[inline(always)]
+    fn place(&mut self, _x: i32, _y: i32) {}
+    #[inline(always)]
+    fn step(&mut self) {}
+    #[inline(always)]
+    fn colour(&self) -> [u8; 3] {
+        self.0
+    }
+}
+
+/// Colours interpolated linearly on the screen.
+pub(super) struct Gouraud([Walk; 3]);
+
+impl Gouraud {
+    pub(super) fn new(t: &Triangle, rgb: [[u8; 3]; 3]) -> Gouraud {
+        Gouraud(
+            [0, 1, 2]
+                .map(|i| Walk::new(t.plane([0, 1, 2].map(|k: usize| (rgb[k][i] as u32) << 16)))),
+        )
+    }
+}
+
+impl Shader for Gouraud {
+    #[inline(always)]
+    fn place(&mut self, x: i32, y: i32) {
+        self.0.iter_mut().for_each(|w| w.place(x, y));
+    }
+    #[inline(always)]
+    fn step(&mut self) {
+        self.0.iter_mut().for_each(Walk::step);
+    }
+    #[inline(always)]
+    fn colour(&self) -> [u8; 3] {
+        [0, 1, 2].map(|i| channel(self.0[i].value))
+    }
+}
+
+/// Another shader's colour times a texel.
+pub(super) struct Textured<'a, S> {
+    inner: S,
+    setup: TextureSetup<'a>,
+    q: Plane,
+    x: i32,
+    y: i32,
+}
+
+impl<'a, S> Textured<'a, S> {
+    pub(super) fn new(inner: S, setup: TextureSetup<'a>, q: Plane) -> Self {
+        Textured { inner, setup, q, x: 0, y: 0 }
+    }
+}
+
+impl<S: Shader> Shader for Textured<'_, S> {
+    #[inline(always)]
+    fn place(&mut self, x: i32, y: i32) {
+        self.inner.place(x, y);
+        (self.x, self.y) = (x, y);
+    }
+    #[inline(always)]
+    fn step(&mut self) {
+        self.inner.step();
+        self.x += 1;
+    }
+    #[inline(always)]
+    fn colour(&self) -> [u8; 3] {
+        let q = integer_q(self.q.at(self.x, self.y));
+        modulate(self.setup.at(self.x, self.y, q, reciprocal(q)), self.inner.colour())
+    }
+}
+
+/// Three signed attributes divided by w, block floating point: `value = (plane - 2^31) r / 2^shift`.
+pub(super) struct Signed {
+    walks: [Walk; 3],
+    shift: u32,
+}
+
+impl Signed {
+    /// From three corners' values, |value| <= 2^30, and their 1/w (integers, the largest in [2^22, 2^23)).
+    pub(super) fn new(t: &Triangle, values: [[i32; 3]; 3], q: [u32; 3]) -> Signed {
+        let product = |k: usize, i: usize| values[k][i] as i64 * q[k] as i64;
+        let largest = (0..9).map(|j| product(j / 3, j % 3).unsigned_abs()).max().unwrap_or(0);
+        let drop = (64 - largest.leading_zeros()).saturating_sub(30);
+        let walks = [0, 1, 2].map(|i| {
+            let biased = |k: usize| ((product(k, i) >> drop) + (1 << 31)) as u32;
+            Walk::new(t.plane([0, 1, 2].map(biased)))
+        });
+        Signed { walks, shift: 47 - drop }
+    }
+    #[inline(always)]
+    fn over_w(&self) -> [i32; 3] {
+        [0, 1, 2].map(|i| self.walks[i].value.wrapping_sub(1 << 31) as i32)
+    }
+    #[inline(always)]
+    fn value(&self, r: u64) -> [i32; 3] {
+        self.over_w()
+            .map(|v| ((v as i128 * r as i128) >> self.shift).clamp(-(1 << 30), 1 << 30) as i32)
+    }
+}
+
+/// Light at every pixel: normals and positions interpolated in perspective. The direction of a normal needs no
+/// division by 1/w.
+pub(super) struct Phong<S> {
+    pub surface: S,
+    pub lighting: Lighting,
+    pub normal: Signed,
+    pub position: Signed,
+    pub q: Walk,
+}
+
+impl<S: Shader> Shader for Phong<S> {
+    #[inline(always)]
+    fn place(&mut self, x: i32, y: i32) {
+        self.surface.place(x, y);
+        self.q.place(x, y);
+        self.normal.walks.iter_mut().chain(&mut self.position.walks).for_each(|w| w.place(x, y));
+    }
+    #[inline(always)]
+    fn step(&mut self) {
+        self.surface.step();
+        self.q.step();
+        self.normal.walks.iter_mut().chain(&mut self.position.walks).for_each(Walk::step);
+    }
+    fn colour(&self) -> [u8; 3] {
+        let r = reciprocal(integer_q(self.q.value));
+        let n = normalise_q14(self.normal.over_w());
+        self.lighting.lit(self.surface.colour(), n, self.position.value(r))
+    }
+}
+
+/// Another shader's colour behind fog.
+pub(super) struct Fogged<'a, S> {
+    pub inner: S,
+    pub fog: &'a FogWeights,
+    pub q: Walk,
+    /// `w = r 2^-shift` in U16.16 world units.
+    pub shift: i32,
+}
+
+impl<S: Shader> Shader for Fogged<'_, S> {
+    #[inline(always)]
+    fn place(&mut self, x: i32, y: i32) {
+        self.inner.place(x, y);
+        self.q.place(x, y);
+    }
+    #[inline(always)]
+    fn step(&mut self) {
+        self.inner.step();
+        self.q.step();
+    }
+    #[inline(always)]
+    fn colour(&self) -> [u8; 3] {
+        let w = distance(reciprocal(integer_q(self.q.value)), self.shift);
+        blend(self.inner.colour(), self.fog.colour, self.fog.weight(w))
+    }
+}
+
+/// `r 2^-shift`, saturating.
+pub(super) fn distance(r: u64, shift: i32) -> u32 {
+    let w = match shift {
+        0..64 => r >> shift,
+        64.. => 0,
+        ..0 if r.leading_zeros() as i32 > -shift => r << -shift,
+        _ => u64::MAX,
+    };
+    w.min(u32::MAX as u64) as u32
+}

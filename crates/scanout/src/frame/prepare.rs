@@ -1,0 +1,393 @@
+//! Preparing: transform and light every vertex once, list what can be seen.
+
+use super::{
+    BACK, CLIPPED, Frame, Kind, MAX_SIDE, Needed, ObjectState, PrepareError, Primitive, Settings,
+};
+use super::{Stats, Store};
+use crate::clip::{self, Corner};
+use crate::cull::{Facing, facing, facing_in_clip_space, sphere_outside};
+use crate::light::{Lighting, MAX_LIGHTS};
+use crate::math::normalise;
+use crate::mesh::{Mesh, Normals};
+use crate::scene::{Background, Mode, Object, Scene};
+use crate::setup::{first_pixel, signed_area};
+use crate::shade::{FogWeights, modulate};
+use crate::transform::{CLIP, ClipMatrix, FAR, NEAR, Vertex, Viewport};
+
+/// The most primitives that an object can make.
+pub(super) fn most_primitives(object: &Object) -> usize {
+    let mesh = object.mesh;
+    match object.mode {
+        Mode::Points => mesh.positions.len(),
+        Mode::Wire => mesh.edges.len(),
+        Mode::Hidden => mesh.triangles.len() + mesh.edges.len(),
+        Mode::Flat | Mode::Gouraud | Mode::Phong => mesh.triangles.len(),
+    }
+}
+
+/// The surface's own colour at a position.
+#[inline]
+pub(super) fn surface_colour(object: &Object, position: u16) -> [u8; 3] {
+    match object.mesh.colours.get(position as usize) {
+        Some(&c) => modulate(c, object.material.colour),
+        None => object.material.colour,
+    }
+}
+
+/// The unit normal of a triangle from its corners, Q2.14; zero without area.
+pub(super) fn geometric_normal(mesh: &Mesh, triangle: [u16; 3]) -> [i16; 3] {
+    let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].map(i64::from));
+    let (d, e) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
+    let cross = [d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]];
+    normalise(cross).map_or([0; 3], |n| n.map(|v| ((v + (1 << 15)) >> 16) as i16))
+}
+
+impl<'a> Frame<'a> {
+    /// Prepares a scene: transforms, lights and culls into the caller's memory.
+    ///
+    /// # Errors
+    /// As [`PrepareError`] lists; a store that is too small is told how much is needed, and nothing is drawn with
+    /// less.
+    pub fn prepare(
+        scene: &'a Scene<'a>,
+        settings: Settings,
+        store: Store<'a>,
+    ) -> Result<Frame<'a>, PrepareError> {
+        check(scene, &settings)?;
+        let given = Needed {
+            vertices: store.vertices.len(),
+            primitives: store.primitives.len(),
+            objects: store.objects.len(),
+        };
+        if given.objects < scene.objects.len() {
+            return Err(PrepareError::Store { needed: Needed::at_most(scene), given });
+        }
+        let Store { vertices, primitives, objects } = store;
+        let world_to_clip = scene.camera.projection.mul(&scene.camera.view);
+        let mut list = List { primitives, len: 0, stats: Stats::default() };
+        let mut vertices_needed = 0;
+        // First how many vertices are needed, so that the error can name it.
+        for (state, object) in objects.iter_mut().zip(scene.objects) {
+            let clip = ClipMatrix::new(&world_to_clip.mul(&object.transform));
+            let seen = !object.mesh.bounds.is_some_and(|sphere| sphere_outside(&clip, &sphere));
+            *state = ObjectState { first_vertex: vertices_needed as u32, clip };
+            if seen {
+                vertices_needed += object.mesh.positions.len();
+            }
+        }
+        if given.vertices < vertices_needed {
+            let needed = Needed { vertices: vertices_needed, ..Needed::at_most(scene) };
+            return Err(PrepareError::Store { needed, given });
+        }
+        for (index, object) in scene.objects.iter().enumerate() {
+            let state = objects[index];
+            if object.mesh.bounds.is_some_and(|sphere| sphere_outside(&state.clip, &sphere)) {
+                list.stats.objects_culled += 1;
+                continue;
+            }
+            let first = state.first_vertex as usize;
+            let own = &mut vertices[first..first + object.mesh.positions.len()];
+            ObjectPass {
+                scene,
+                settings: &settings,
+                viewport: Viewport::new(settings.width, settings.height),
+                object,
+                index,
+                clip: &state.clip,
+            }
+            .run(own, &mut list)?;
+        }
+        let List { primitives, len, mut stats } = list;
+        if len > primitives.len() {
+            let needed =
+                Needed { vertices: vertices_needed, primitives: len, objects: scene.objects.len() };
+            return Err(PrepareError::Store { needed, given });
+        }
+        stats.vertices = vertices_needed as u32;
+        stats.primitives = len as u32;
+        Ok(Frame {
+            scene,
+            settings,
+            vertices: &vertices[..vertices_needed],
+            primitives: &primitives[..len],
+            objects: &objects[..scene.objects.len()],
+            fog: scene.fog.as_ref().map(FogWeights::new),
+            stats,
+        })
+    }
+}
+
+/// Checks everything that drawing relies on, so that drawing cannot fail.
+fn check(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
+    let (width, height) = (settings.width, settings.height);
+    if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
+        return Err(PrepareError::Size { width, height });
+    }
+    if scene.lights.len() > MAX_LIGHTS {
+        return Err(PrepareError::Lights(scene.lights.len()));
+    }
+    if scene.objects.len() > 1 << 16 {
+        return Err(PrepareError::Objects(scene.objects.len()));
+    }
+    if let Background::Image(pixels) = scene.background {
+        let needed = width as usize * height as usize;
+        if pixels.len() != needed {
+            return Err(PrepareError::Background { needed, given: pixels.len() });
+        }
+    }
+    for (index, object) in scene.objects.iter().enumerate() {
+        let mesh = object.mesh;
+        let parallel = |len: usize, with: usize| len == 0 || len == with;
+        let normals_fit = match mesh.normals {
+            Normals::None => true,
+            Normals::Vertex(n) => n.len() == mesh.positions.len(),
+            Normals::Face(n) => n.len() == mesh.triangles.len(),
+        };
+        if !normals_fit
+            || !parallel(mesh.colours.len(), mesh.positions.len())
+            || !parallel(mesh.uv_triangles.len(), mesh.triangles.len())
+        {
+            return Err(PrepareError::Lengths { object: index });
+        }
+        if let Some(texture) = object.material.texture {
+            texture.check().map_err(|error| PrepareError::Texture { object: index, error })?;
+        }
+    }
+    Ok(())
+}
+
+/// The primitives so far; counts on when the memory is full.
+struct List<'a> {
+    primitives: &'a mut [Primitive],
+    len: usize,
+    stats: Stats,
+}
+
+impl List<'_> {
+    #[inline]
+    fn push(&mut self, primitive: Primitive) {
+        if let Some(slot) = self.primitives.get_mut(self.len) {
+            *slot = primitive;
+        }
+        self.len += 1;
+    }
+}
+
+/// One object on its way through the first stages.
+struct ObjectPass<'a> {
+    scene: &'a Scene<'a>,
+    settings: &'a Settings,
+    viewport: Viewport,
+    object: &'a Object<'a>,
+    index: usize,
+    clip: &'a ClipMatrix,
+}
+
+impl ObjectPass<'_> {
+    fn run(&self, vertices: &mut [Vertex], list: &mut List) -> Result<(), PrepareError> {
+        let lighting = lighting(self.scene, self.object);
+        self.transform(vertices, &lighting);
+        match self.object.mode {
+            Mode::Points => self.points(vertices, list),
+            Mode::Wire => self.edges(vertices, list)?,
+            Mode::Hidden => {
+                self.triangles(vertices, &lighting, Kind::Mask, list)?;
+                self.edges(vertices, list)?;
+            }
+            _ => self.triangles(vertices, &lighting, Kind::Triangle, list)?,
+        }
+        Ok(())
+    }
+
+    /// Transform and light: positions to screen vertices.
+    fn transform(&self, vertices: &mut [Vertex], lighting: &Lighting) {
+        let mesh = self.object.mesh;
+        let gouraud = match (self.object.mode, mesh.normals) {
+            (Mode::Gouraud, Normals::Vertex(normals)) => Some(normals),
+            _ => None,
+        };
+        for (i, (vertex, &position)) in vertices.iter_mut().zip(mesh.positions).enumerate() {
+            *vertex = self.viewport.project(&self.clip.apply(position));
+            vertex.rgb = surface_colour(self.object, i as u16);
+            if let Some(normals) = gouraud {
+                let (n, p) = lighting.local(normals[i], position);
+                vertex.rgb = lighting.lit(vertex.rgb, n, p);
+            }
+        }
+    }
+
+    /// Cull: triangles that can be seen.
+    fn triangles(
+        &self,
+        vertices: &[Vertex],
+        lighting: &Lighting,
+        kind: Kind,
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
+        let mesh = self.object.mesh;
+        let two_sided = self.object.material.two_sided;
+        list.stats.triangles += mesh.triangles.len() as u32;
+        for (i, &triangle) in mesh.triangles.iter().enumerate() {
+            let corners = triangle.map(|c| vertices.get(c as usize));
+            let [Some(a), Some(b), Some(c)] = corners else {
+                return Err(PrepareError::Index { object: self.index, element: i });
+            };
+            if a.flags & b.flags & c.flags & (NEAR | FAR) != 0 {
+                list.stats.outside += 1;
+                continue;
+            }
+            let clipped = (a.flags | b.flags | c.flags) & CLIP != 0;
+            let facing = if clipped {
+                facing_in_clip_space(&triangle.map(|c| self.clip.apply(mesh.positions[c as usize])))
+            } else {
+                facing(signed_area(&[[a.x, a.y], [b.x, b.y], [c.x, c.y]]))
+            };
+            if facing == Facing::Edge || (facing == Facing::Back && !two_sided) {
+                list.stats.back_facing += 1;
+                continue;
+            }
+            let rows = if clipped {
+                self.clipped_rows(triangle)
+            } else {
+                self.rows([a, b, c].map(|v| [v.x, v.y]).into_iter())
+            };
+            let Some((top, bottom)) = rows else {
+                list.stats.outside += 1;
+                continue;
+            };
+            if let Some(uvs) = mesh.uv_triangles.get(i)
+                && uvs.iter().any(|&t| t as usize >= mesh.uvs.len())
+            {
+                return Err(PrepareError::Index { object: self.index, element: i });
+            }
+            let back = facing == Facing::Back;
+            let mut tag = kind as u8;
+            tag |= if clipped { CLIPPED } else { 0 } | if back { BACK } else { 0 };
+            list.stats.clipped += clipped as u32;
+            let rgb =
+                if kind == Kind::Triangle { self.face_colour(i, back, lighting) } else { [0; 3] };
+            let object = self.index as u16;
+            list.push(Primitive { index: i as u32, top, bottom, object, rgb, tag });
+        }
+        Ok(())
+    }
+
+    /// The colour of a triangle that is lit as a whole.
+    fn face_colour(&self, index: usize, back: bool, lighting: &Lighting) -> [u8; 3] {
+        let mesh = self.object.mesh;
+        let normal = match (self.object.mode, mesh.normals) {
+            (Mode::Phong, _) | (Mode::Gouraud, Normals::Vertex(_)) => return [0; 3],
+            (_, Normals::Face(normals)) => normals[index],
+            _ => geometric_normal(mesh, mesh.triangles[index]),
+        };
+        let normal = if back { normal.map(|v| v.saturating_neg()) } else { normal };
+        let triangle = mesh.triangles[index];
+        let corners = triangle.map(|c| mesh.positions[c as usize]);
+        let centre = [0, 1, 2].map(|k| {
+            let sum: i32 = corners.iter().map(|c| c[k] as i32).sum();
+            sum.div_euclid(3) as i16
+        });
+        let colours = triangle.map(|c| surface_colour(self.object, c));
+        let colour = [0, 1, 2].map(|k| {
+            let sum: u32 = colours.iter().map(|c| c[k] as u32).sum();
+            ((sum + 1) / 3) as u8
+        });
+        let (n, p) = lighting.local(normal, centre);
+        lighting.lit(colour, n, p)
+    }
+
+    fn edges(&self, vertices: &[Vertex], list: &mut List) -> Result<(), PrepareError> {
+        let mesh = self.object.mesh;
+        for (i, &edge) in mesh.edges.iter().enumerate() {
+            let [Some(a), Some(b)] = edge.map(|c| vertices.get(c as usize)) else {
+                return Err(PrepareError::Index { object: self.index, element: i });
+            };
+            if a.flags & b.flags & (NEAR | FAR) != 0 {
+                list.stats.outside += 1;
+                continue;
+            }
+            let clipped = (a.flags | b.flags) & CLIP != 0;
+            let ends = if clipped {
+                let corner = |c: u16| self.corner(c);
+                clip::line(corner(edge[0]), corner(edge[1]))
+                    .map(|ends| ends.map(|c| self.viewport.project(&c.clip)))
+            } else {
+                Some([*a, *b])
+            };
+            // An anti-aliased line reaches one pixel to each side.
+            let rows = ends.and_then(|[a, b]| self.line_rows(&a, &b, 2));
+            let Some((top, bottom)) = rows else {
+                list.stats.outside += 1;
+                continue;
+            };
+            list.stats.clipped += clipped as u32;
+            let tag = Kind::Edge as u8 | if clipped { CLIPPED } else { 0 };
+            let object = self.index as u16;
+            list.push(Primitive { index: i as u32, top, bottom, object, rgb: [0; 3], tag });
+        }
+        Ok(())
+    }
+
+    fn points(&self, vertices: &[Vertex], list: &mut List) {
+        for (i, v) in vertices.iter().enumerate() {
+            let reach = self.object.point_size as i32;
+            let rows = if v.flags & CLIP != 0 { None } else { self.line_rows(v, v, reach) };
+            let Some((top, bottom)) = rows else {
+                list.stats.outside += 1;
+                continue;
+            };
+            let (tag, object) = (Kind::Point as u8, self.index as u16);
+            list.push(Primitive { index: i as u32, top, bottom, object, rgb: [0; 3], tag });
+        }
+    }
+
+    fn corner(&self, index: u16) -> Corner {
+        let clip = self.clip.apply(self.object.mesh.positions[index as usize]);
+        Corner { clip, ..Corner::default() }
+    }
+
+    /// Rows of the frame that a clipped triangle may touch.
+    fn clipped_rows(&self, triangle: [u16; 3]) -> Option<(i16, i16)> {
+        let polygon = clip::triangle(triangle.map(|c| self.corner(c)));
+        let corners = polygon.corners();
+        if corners.is_empty() {
+            return None;
+        }
+        self.rows(corners.iter().map(|c| self.viewport.project(&c.clip)).map(|v| [v.x, v.y]))
+    }
+
+    /// Rows of the frame with pixel centres in the box of some points; `None` when the box holds no centre.
+    #[inline]
+    fn rows(&self, points: impl Iterator<Item = [i32; 2]>) -> Option<(i16, i16)> {
+        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
+        for p in points {
+            low = [low[0].min(p[0]), low[1].min(p[1])];
+            high = [high[0].max(p[0]), high[1].max(p[1])];
+        }
+        let (width, height) = (self.settings.width as i32, self.settings.height as i32);
+        let (x0, x1) = (first_pixel(low[0]).max(0), first_pixel(high[0]).min(width));
+        let (y0, y1) = (first_pixel(low[1]).max(0), first_pixel(high[1]).min(height));
+        (x0 < x1 && y0 < y1).then_some((y0 as i16, y1 as i16))
+    }
+
+    /// Rows of the frame that a line or point may touch, `reach` pixels to each side.
+    fn line_rows(&self, a: &Vertex, b: &Vertex, reach: i32) -> Option<(i16, i16)> {
+        let (width, height) = (self.settings.width as i32, self.settings.height as i32);
+        let x0 = (a.x.min(b.x) >> 4) - reach;
+        let x1 = (a.x.max(b.x) >> 4) + reach;
+        let y0 = ((a.y.min(b.y) >> 4) - reach).max(0);
+        let y1 = ((a.y.max(b.y) >> 4) + reach + 1).min(height);
+        (x0 < width && x1 >= 0 && y0 < y1).then_some((y0 as i16, y1 as i16))
+    }
+}
+
+/// The lights as an object sees them.
+pub(super) fn lighting(scene: &Scene, object: &Object) -> Lighting {
+    Lighting::new(
+        scene.lights,
+        scene.light_floor,
+        &scene.camera.viewpoint,
+        object.material,
+        &object.transform,
+    )
+}

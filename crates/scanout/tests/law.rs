@@ -1,0 +1,152 @@
+//! The law: a picture is a pure function. The same frame by spans and by tiles, in bands of any height, forwards and
+//! backwards, on several threads, with `==` on every word of colour and depth.
+
+mod common;
+
+use common::{Memory, Picture, camera, draw, material, object, scene, sphere};
+use scanout::camera::{Camera, projection};
+use scanout::frame::{Frame, Needed, Settings, Traversal};
+use scanout::math::{Angle, Mat4, Q16, Vec3};
+use scanout::output::{Mono, PixelFormat, Rgb332, Rgb565, Rgb888};
+use scanout::scene::{Background, Fog, Mode, Object, Scene};
+use scanout::texture::{Filter, Texels, Texture, Wrap};
+
+const SIZE: Settings = Settings::new(160, 120);
+
+fn check<F: PixelFormat>(name: &str, scene: &Scene) {
+    let whole: Picture<F> = draw(scene, SIZE, SIZE.height, false);
+    let background: Picture<F> = draw(&Scene { objects: &[], ..*scene }, SIZE, SIZE.height, false);
+    assert!(whole != background, "{name}: nothing was drawn");
+    for dither in [false, true] {
+        let settings = Settings { dither, ..SIZE };
+        let whole: Picture<F> = draw(scene, settings, SIZE.height, false);
+        for traversal in [Traversal::Spans, Traversal::Tiles] {
+            for (lines, backwards) in [(1, false), (7, false), (7, true), (SIZE.height, true)] {
+                let other: Picture<F> =
+                    draw(scene, Settings { traversal, ..settings }, lines, backwards);
+                assert!(
+                    whole == other,
+                    "{name}: {traversal:?}, bands of {lines}, backwards {backwards}"
+                );
+            }
+        }
+    }
+}
+
+fn checkerboard() -> Vec<[u8; 3]> {
+    (0..60 * 40 + 30 * 20 + 15 * 10)
+        .map(|i| if (i / 5 + i / 300) % 2 == 0 { [250, 240, 200] } else { [180, 40, i as u8] })
+        .collect()
+}
+
+/// Every mode, with and without texture, fog and smooth lines, two objects that cut each other.
+#[test]
+fn every_mode_in_every_order() {
+    let mesh_data = sphere(16, 12);
+    let mesh = mesh_data.mesh();
+    let texels = checkerboard();
+    let mut texture = Texture::new(60, 40, Texels::Rgb888(&texels)).unwrap();
+    (texture.levels, texture.wrap) = (3, [Wrap::Mirror, Wrap::Border]);
+    texture.filter = Filter::Bilinear;
+    for mode in [Mode::Points, Mode::Wire, Mode::Hidden, Mode::Flat, Mode::Gouraud, Mode::Phong] {
+        for variant in 0..3 {
+            let mut m = material();
+            m.texture = (variant == 1).then_some(&texture);
+            m.two_sided = variant == 2;
+            let mut first = object(&mesh, &m, mode);
+            (first.smooth_lines, first.point_size) = (variant == 1, 1 + 3 * variant as u8);
+            let mut second = first;
+            second.transform = Mat4::translation(Vec3::from_f64([0.7, 0.3, 0.2]));
+            let objects = [first, second];
+            let mut scene = scene(camera(160, 120), &objects);
+            if variant == 2 {
+                scene.fog =
+                    Some(Fog::Exponential { colour: [90, 90, 120], density: Q16::from_f64(0.3) });
+            }
+            check::<Rgb565>(&format!("{mode:?} {variant}"), &scene);
+        }
+    }
+}
+
+#[test]
+fn every_format() {
+    let mesh_data = sphere(16, 12);
+    let mesh = mesh_data.mesh();
+    let m = material();
+    let objects = [object(&mesh, &m, Mode::Gouraud)];
+    let picture: Vec<[u8; 3]> =
+        (0..160 * 120).map(|i| [(i % 160) as u8, (i / 160) as u8, 99]).collect();
+    let mut scene = scene(camera(160, 120), &objects);
+    scene.background = Background::Image(&picture);
+    check::<Rgb888>("rgb888", &scene);
+    check::<Rgb565>("rgb565", &scene);
+    check::<Rgb332>("rgb332", &scene);
+    check::<Mono>("mono", &scene);
+}
+
+/// A camera inside the mesh: triangles cross the near plane and reach far outside the screen.
+#[test]
+fn clipped_scenes() {
+    let mesh_data = sphere(10, 8);
+    let mesh = mesh_data.mesh();
+    let mut m = material();
+    m.two_sided = true;
+    let lens = projection::perspective(
+        Angle::from_degrees(Q16::from_int(100)),
+        Q16::from_ratio(4, 3),
+        Q16::from_f64(0.01),
+        Q16::from_int(10),
+    )
+    .unwrap();
+    let eye = Vec3::from_f64([0.3, 0.1, 0.75]);
+    let camera = Camera::look_at(eye, Vec3::from_f64([-1.0, 0.0, 0.6]), Vec3::Y, lens).unwrap();
+    for mode in [Mode::Flat, Mode::Gouraud, Mode::Phong, Mode::Wire, Mode::Hidden] {
+        let objects = [object(&mesh, &m, mode)];
+        check::<Rgb888>(&format!("inside, {mode:?}"), &scene(camera, &objects));
+    }
+}
+
+/// Several threads draw bands of one prepared frame.
+#[test]
+fn threads_share_a_frame() {
+    let mesh_data = sphere(32, 24);
+    let mesh = mesh_data.mesh();
+    let m = material();
+    let objects = [object(&mesh, &m, Mode::Phong)];
+    let scene = scene(camera(160, 120), &objects);
+    let whole: Picture<Rgb565> = draw(&scene, SIZE, 120, false);
+    let mut memory = Memory::new(Needed::at_most(&scene));
+    let frame = Frame::prepare(&scene, SIZE, memory.store()).unwrap();
+    let (mut colour, mut depth) = (vec![0u16; 160 * 120], vec![0u16; 160 * 120]);
+    std::thread::scope(|threads| {
+        for (i, (c, d)) in colour.chunks_mut(160 * 13).zip(depth.chunks_mut(160 * 13)).enumerate() {
+            let frame = &frame;
+            threads.spawn(move || {
+                let top = i as u16 * 13;
+                frame.draw_rows::<Rgb565>(top..120.min(top + 13), c, d).unwrap();
+            });
+        }
+    });
+    assert!(colour == whole.colour && depth == whole.depth);
+}
+
+/// The hash is the same for any bands and differs when a pixel does.
+#[test]
+fn hashes() {
+    let mesh_data = sphere(16, 12);
+    let mesh = mesh_data.mesh();
+    let m = material();
+    let objects = [object(&mesh, &m, Mode::Gouraud)];
+    let scene = scene(camera(160, 120), &objects);
+    let hash = |scene: &Scene, lines: u16| {
+        let mut memory = Memory::new(Needed::at_most(scene));
+        let frame = Frame::prepare(scene, SIZE, memory.store()).unwrap();
+        frame.hash::<Rgb565>(lines, &mut [0; 160 * 120], &mut [0; 160 * 120]).unwrap()
+    };
+    let whole = hash(&scene, 120);
+    assert_eq!(whole, hash(&scene, 1));
+    assert_eq!(whole, hash(&scene, 7));
+    let moved =
+        [Object { transform: Mat4::translation(Vec3::from_f64([0.02, 0.0, 0.0])), ..objects[0] }];
+    assert_ne!(whole, hash(&Scene { objects: &moved, ..scene }, 7));
+}
