@@ -18,7 +18,8 @@ const VALENCE_LIMIT: usize = 256;
 /// Unit vector in the direction of `v`, or `None` for a vector without one.
 pub(crate) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let greatest = v[0].abs().max(v[1].abs()).max(v[2].abs());
-    if greatest.is_nan() || greatest.is_infinite() || greatest == 0.0 {
+    // `max` ignores a NaN; the sum does not.
+    if !(v[0] + v[1] + v[2]).is_finite() || greatest == 0.0 {
         return None;
     }
     // Scaled first, so that the squares neither overflow nor vanish.

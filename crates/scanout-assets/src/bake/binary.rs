@@ -290,7 +290,7 @@ impl<'a> BakedMesh<'a> {
         }
         let texels: &[u16] = self.counted(at + 8)?;
         let level = |k| usize::from(width >> k).max(1) * usize::from(height >> k).max(1);
-        if texels.len() != (0..levels).map(level).sum() {
+        if texels.len() != (0..levels).map(level).sum::<usize>() {
             return Err(disagree);
         }
         Ok(Texture {
