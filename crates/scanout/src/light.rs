@@ -182,8 +182,9 @@ impl Lighting {
             Space::Object => (normal.map(i32::from), position.map(i32::from)),
             Space::World { normal: m, position: transform } => {
                 let n = normal.map(i32::from);
-                let n =
-                    m.map(|row| (row[0] * n[0] >> 2) + (row[1] * n[1] >> 2) + (row[2] * n[2] >> 2));
+                let n = m.map(|row| {
+                    ((row[0] * n[0]) >> 2) + ((row[1] * n[1]) >> 2) + ((row[2] * n[2]) >> 2)
+                });
                 let p = position.map(i64::from);
                 let p = [0, 1, 2].map(|i| {
                     let row = &transform.m[i];

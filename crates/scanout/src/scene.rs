@@ -42,6 +42,21 @@ pub struct Material<'a> {
     pub two_sided: bool,
 }
 
+impl Default for Material<'_> {
+    /// White, 0.2 ambient and 0.8 diffuse, not shiny.
+    fn default() -> Self {
+        Material {
+            colour: [255; 3],
+            ambient: Q16::from_ratio(1, 5),
+            diffuse: Q16::from_ratio(4, 5),
+            specular: Q16::ZERO,
+            shininess: 1,
+            texture: None,
+            two_sided: false,
+        }
+    }
+}
+
 /// A mesh placed in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Object<'a> {
@@ -57,6 +72,14 @@ pub struct Object<'a> {
     pub smooth_lines: bool,
     /// Side of a point in pixels, 1 - 64.
     pub point_size: u8,
+}
+
+impl<'a> Object<'a> {
+    /// A mesh at the world's origin, one unit large, with thin lines and points.
+    pub const fn new(mesh: &'a Mesh<'a>, material: &'a Material<'a>, mode: Mode) -> Object<'a> {
+        let transform = Mat4::IDENTITY;
+        Object { mesh, material, transform, mode, smooth_lines: false, point_size: 1 }
+    }
 }
 
 /// A source of light.
@@ -122,4 +145,18 @@ pub struct Scene<'a> {
     pub fog: Option<Fog>,
     /// What lies behind everything.
     pub background: Background<'a>,
+}
+
+impl<'a> Scene<'a> {
+    /// Objects on black, without lights or fog: ambient light only.
+    pub const fn new(camera: Camera, objects: &'a [Object<'a>]) -> Scene<'a> {
+        Scene {
+            camera,
+            objects,
+            lights: &[],
+            light_floor: Q16::ZERO,
+            fog: None,
+            background: Background::Colour([0; 3]),
+        }
+    }
 }

@@ -4,155 +4,21 @@ use core::ops::Range;
 
 use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walk};
 use super::prepare::{geometric_normal, lighting, surface_colour};
-use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive, Traversal};
+use super::target::Target;
+use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
 use crate::clip::{self, Corner};
 use crate::depth;
 use crate::interpolate::Plane;
+use crate::light::Lighting;
 use crate::mesh::Normals;
 use crate::output::PixelFormat;
-use crate::raster::line::{ClipRect, LineEnd, walk};
+use crate::raster::line::{LineEnd, walk};
 use crate::raster::point::draw_point;
 use crate::raster::smooth_line::{SmoothEnd, walk_smooth};
-use crate::raster::triangle::{spans, tiles};
-use crate::scene::{Background, Mode, Object};
+use crate::scene::{Mode, Object};
 use crate::setup::Triangle;
-use crate::shade::blend;
 use crate::texture::{Texture, TextureSetup};
 use crate::transform::{Vertex, Viewport, common_inverse_w};
-
-/// Colour and depth memory of the rows being drawn.
-struct Target<'m, F: PixelFormat> {
-    rows: Range<i32>,
-    width: usize,
-    dither: bool,
-    traversal: Traversal,
-    colour: &'m mut [F::Word],
-    depth: &'m mut [u16],
-}
-
-impl<F: PixelFormat> Target<'_, F> {
-    /// The colour and depth of row `y`.
-    #[inline(always)]
-    fn row(&mut self, y: i32) -> (&mut [F::Word], &mut [u16]) {
-        let (i, words) = ((y - self.rows.start) as usize, F::words(self.width));
-        (
-            &mut self.colour[i * words..(i + 1) * words],
-            &mut self.depth[i * self.width..(i + 1) * self.width],
-        )
-    }
-
-    #[inline(always)]
-    fn encode(&self, rgb: [u8; 3], x: i32, y: i32) -> F::Pixel {
-        if self.dither { F::encode_dithered(rgb, x, y) } else { F::encode(rgb) }
-    }
-
-    fn clip_rect(&self) -> ClipRect {
-        ClipRect { x0: 0, y0: self.rows.start, x1: self.width as i32, y1: self.rows.end }
-    }
-
-    fn clear(&mut self, background: &Background) {
-        self.depth.fill(depth::FAR);
-        for y in self.rows.clone() {
-            let (width, dither) = (self.width, self.dither);
-            let (row, _) = self.row(y);
-            match background {
-                Background::Colour(rgb) if !dither => F::fill(row, width, F::encode(*rgb)),
-                Background::Colour(rgb) => {
-                    F::fill(row, width, F::encode([0; 3]));
-                    for x in 0..width {
-                        F::store(row, x, F::encode_dithered(*rgb, x as i32, y));
-                    }
-                }
-                Background::Image(pixels) => {
-                    F::fill(row, width, F::encode([0; 3]));
-                    let picture = &pixels[y as usize * width..][..width];
-                    for (x, &rgb) in picture.iter().enumerate() {
-                        let pixel = if dither {
-                            F::encode_dithered(rgb, x as i32, y)
-                        } else {
-                            F::encode(rgb)
-                        };
-                        F::store(row, x, pixel);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Walks a triangle's covered pixels as runs.
-    #[inline(always)]
-    fn runs(&mut self, t: &Triangle, mut run: impl FnMut(&mut Self, i32, Range<i32>)) {
-        let (rows, width) = (self.rows.clone(), self.width as i32);
-        match self.traversal {
-            Traversal::Spans => spans(t, rows, width, |y, xs| run(self, y, xs)),
-            Traversal::Tiles => tiles(t, rows, width, |y, xs| run(self, y, xs)),
-        }
-    }
-
-    /// Depth, shade, output: a triangle's fragments.
-    #[inline]
-    fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, mut shader: S) {
-        self.runs(t, |target, y, xs| {
-            let dither = target.dither;
-            let (row, depths) = target.row(y);
-            let mut value = z.at(xs.start, y);
-            shader.place(xs.start, y);
-            let constant = F::encode(if S::CONSTANT { shader.colour() } else { [0; 3] });
-            let first = xs.start as usize;
-            for (i, stored) in depths[first..xs.end as usize].iter_mut().enumerate() {
-                if depth::test(stored, depth::round(value)) {
-                    let x = first + i;
-                    let pixel = if S::CONSTANT && !dither {
-                        constant
-                    } else if dither {
-                        F::encode_dithered(shader.colour(), x as i32, y)
-                    } else {
-                        F::encode(shader.colour())
-                    };
-                    F::store(row, x, pixel);
-                }
-                value = value.wrapping_add(z.gx);
-                shader.step();
-            }
-        });
-    }
-
-    /// Depth only, pushed back so that the triangle's own edges stay visible: by its steepest slope a pixel, at most 2048
-    /// steps, and two steps.
-    fn mask(&mut self, t: &Triangle, z: &Plane) {
-        let slope = (z.gx as i32).unsigned_abs().max((z.gy as i32).unsigned_abs());
-        let bias = slope.min(2048 << 16) + (2 << 16);
-        self.runs(t, |target, y, xs| {
-            let (_, depths) = target.row(y);
-            let mut value = z.at(xs.start, y);
-            for stored in &mut depths[xs.start as usize..xs.end as usize] {
-                // Rounding may leave a value just below 0, which wraps to the top.
-                let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
-                depth::test(stored, pushed as u16);
-                value = value.wrapping_add(z.gx);
-            }
-        });
-    }
-
-    #[inline]
-    fn plot(&mut self, x: i32, y: i32, z: Option<u16>, rgb: [u8; 3]) {
-        let pixel = self.encode(rgb, x, y);
-        let (row, depths) = self.row(y);
-        if z.is_none_or(|z| depth::test(&mut depths[x as usize], z)) {
-            F::store(row, x as usize, pixel);
-        }
-    }
-
-    /// Mixes a colour into what is there.
-    fn mix(&mut self, x: i32, y: i32, z: Option<u16>, rgb: [u8; 3], weight: u8) {
-        let (row, depths) = self.row(y);
-        if z.is_none_or(|z| z < depths[x as usize]) {
-            let mixed = blend(F::load(row, x as usize), rgb, weight);
-            let pixel = self.encode(mixed, x, y);
-            F::store(self.row(y).0, x as usize, pixel);
-        }
-    }
-}
 
 impl<'a> Frame<'a> {
     /// Draws rows into the caller's memory: `colour` holds `F::words(width)` words a row, `depth` `width` words.
@@ -183,11 +49,12 @@ impl<'a> Frame<'a> {
             depth: &mut depth[..needed.1],
         };
         target.clear(&self.scene.background);
+        let mut lights = None;
         for primitive in self.primitives {
             if (primitive.top as i32) < target.rows.end
                 && primitive.bottom as i32 > target.rows.start
             {
-                self.draw_primitive(primitive, &mut target);
+                self.draw_primitive(primitive, &mut lights, &mut target);
             }
         }
         Ok(())
@@ -223,15 +90,27 @@ impl<'a> Frame<'a> {
         Ok(())
     }
 
-    fn draw_primitive<F: PixelFormat>(&self, primitive: &Primitive, target: &mut Target<F>) {
+    /// `lights` keeps the last object's lighting where drawing needs it.
+    fn draw_primitive<F: PixelFormat>(
+        &self,
+        primitive: &Primitive,
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+    ) {
         let object = &self.scene.objects[primitive.object as usize];
         let state = &self.objects[primitive.object as usize];
+        let late_light = object.mode == Mode::Phong
+            || (object.mode == Mode::Gouraud && primitive.tag & BACK != 0);
+        if late_light && !matches!(lights, Some((owner, _)) if *owner == primitive.object) {
+            *lights = Some((primitive.object, lighting(self.scene, object)));
+        }
         let painter = Painter {
             frame: self,
             object,
             vertices: &self.vertices[state.first_vertex as usize..],
             state,
             primitive,
+            lighting: lights.as_ref().map(|(_, lighting)| lighting).filter(|_| late_light),
         };
         match primitive.kind() {
             Kind::Triangle | Kind::Mask => painter.triangle(target),
@@ -255,6 +134,8 @@ struct Painter<'f> {
     vertices: &'f [Vertex],
     state: &'f super::ObjectState,
     primitive: &'f Primitive,
+    /// Present where corners or fragments are lit while drawing.
+    lighting: Option<&'f Lighting>,
 }
 
 impl<'f> Painter<'f> {
@@ -316,19 +197,17 @@ impl<'f> Painter<'f> {
             uv: self.mesh_uv(k),
             ..Corner::default()
         };
-        let phong = self.object.mode == Mode::Phong;
-        let back = self.primitive.tag & BACK != 0;
-        if phong || (back && self.object.mode == Mode::Gouraud) {
+        if let Some(lighting) = self.lighting {
             let normal = match mesh.normals {
                 Normals::Vertex(normals) => normals[i as usize],
                 Normals::Face(normals) => normals[index],
                 Normals::None => geometric_normal(mesh, mesh.triangles[index]),
             };
+            let back = self.primitive.tag & BACK != 0;
             let normal = if back { normal.map(|v| v.saturating_neg()) } else { normal };
-            let lighting = lighting(self.frame.scene, self.object);
             let (n, p) = lighting.local(normal, position);
             (corner.normal, corner.position) = (n, p);
-            if !phong {
+            if self.object.mode != Mode::Phong {
                 corner.rgb = lighting.lit(surface_colour(self.object, i), n, p);
             }
         }
@@ -348,24 +227,24 @@ impl<'f> Painter<'f> {
             return target.mask(t, &z);
         }
         let smooth = matches!(self.object.mesh.normals, Normals::Vertex(_));
-        match self.object.mode {
-            Mode::Phong => {
+        match (self.object.mode, self.lighting) {
+            (Mode::Phong, Some(lighting)) => {
                 let full = [0, 1, 2].map(|k| self.full(corners, k));
                 let (q, _) = common_inverse_w(v);
                 let shader = Phong {
                     surface: Gouraud::new(t, v.map(|v| v.rgb)),
-                    lighting: lighting(self.frame.scene, self.object),
+                    lighting,
                     normal: Signed::new(t, full.map(|c| c.normal), q),
                     position: Signed::new(t, full.map(|c| c.position), q),
                     q: Walk::new(t.plane(q.map(|q| q << 8))),
                 };
                 self.texture(t, v, &z, corners, shader, target);
             }
-            Mode::Gouraud if smooth && self.primitive.tag & BACK != 0 => {
+            (Mode::Gouraud, Some(_)) if smooth => {
                 let shader = Gouraud::new(t, [0, 1, 2].map(|k| self.full(corners, k).rgb));
                 self.texture(t, v, &z, corners, shader, target);
             }
-            Mode::Gouraud if smooth => {
+            (Mode::Gouraud, None) if smooth => {
                 self.texture(t, v, &z, corners, Gouraud::new(t, v.map(|v| v.rgb)), target);
             }
             _ => self.texture(t, v, &z, corners, Flat(self.primitive.rgb), target),

@@ -149,15 +149,15 @@ impl Signed {
 
 /// Light at every pixel: normals and positions interpolated in perspective. The direction of a normal needs no
 /// division by 1/w.
-pub(super) struct Phong<S> {
+pub(super) struct Phong<'a, S> {
     pub surface: S,
-    pub lighting: Lighting,
+    pub lighting: &'a Lighting,
     pub normal: Signed,
     pub position: Signed,
     pub q: Walk,
 }
 
-impl<S: Shader> Shader for Phong<S> {
+impl<S: Shader> Shader for Phong<'_, S> {
     #[inline(always)]
     fn place(&mut self, x: i32, y: i32) {
         self.surface.place(x, y);

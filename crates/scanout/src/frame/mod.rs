@@ -23,6 +23,7 @@
 mod draw;
 mod fragment;
 mod prepare;
+mod target;
 
 use core::fmt;
 
@@ -343,7 +344,7 @@ pub struct Band<'a, F: PixelFormat> {
 
 impl<F: PixelFormat> Band<'_, F> {
     /// Adds the band's pixels to a frame hash.
-    pub fn hash(&self, hash: &mut FrameHash) {
+    pub fn add_to(&self, hash: &mut FrameHash) {
         let words = F::words(self.width as usize);
         for row in self.colour.chunks_exact(words) {
             F::bytes(row, self.width as usize, &mut |bytes| hash.update(bytes));
@@ -386,7 +387,7 @@ impl<'a> Frame<'a> {
     ) -> Result<u64, BandError> {
         let mut hash = FrameHash::new(self.settings.width, self.settings.height, F::ID);
         let drawn = self.draw_bands::<F, core::convert::Infallible>(lines, colour, depth, |band| {
-            band.hash(&mut hash);
+            band.add_to(&mut hash);
             Ok(())
         });
         match drawn {

@@ -1,0 +1,148 @@
+//! Targets: colour and depth memory of some rows, and what is done with a fragment when it gets there.
+
+use core::ops::Range;
+
+use super::Traversal;
+use super::fragment::Shader;
+use crate::depth;
+use crate::interpolate::Plane;
+use crate::output::PixelFormat;
+use crate::raster::line::ClipRect;
+use crate::raster::triangle::{spans, tiles};
+use crate::scene::Background;
+use crate::setup::Triangle;
+use crate::shade::blend;
+
+/// Colour and depth memory of the rows being drawn.
+pub(super) struct Target<'m, F: PixelFormat> {
+    pub(super) rows: Range<i32>,
+    pub(super) width: usize,
+    pub(super) dither: bool,
+    pub(super) traversal: Traversal,
+    pub(super) colour: &'m mut [F::Word],
+    pub(super) depth: &'m mut [u16],
+}
+
+impl<F: PixelFormat> Target<'_, F> {
+    /// The colour and depth of row `y`.
+    #[inline(always)]
+    fn row(&mut self, y: i32) -> (&mut [F::Word], &mut [u16]) {
+        let (i, words) = ((y - self.rows.start) as usize, F::words(self.width));
+        (
+            &mut self.colour[i * words..(i + 1) * words],
+            &mut self.depth[i * self.width..(i + 1) * self.width],
+        )
+    }
+
+    #[inline(always)]
+    fn encode(&self, rgb: [u8; 3], x: i32, y: i32) -> F::Pixel {
+        if self.dither { F::encode_dithered(rgb, x, y) } else { F::encode(rgb) }
+    }
+
+    pub(super) fn clip_rect(&self) -> ClipRect {
+        ClipRect { x0: 0, y0: self.rows.start, x1: self.width as i32, y1: self.rows.end }
+    }
+
+    pub(super) fn clear(&mut self, background: &Background) {
+        self.depth.fill(depth::FAR);
+        for y in self.rows.clone() {
+            let (width, dither) = (self.width, self.dither);
+            let (row, _) = self.row(y);
+            match background {
+                Background::Colour(rgb) if !dither => F::fill(row, width, F::encode(*rgb)),
+                Background::Colour(rgb) => {
+                    F::fill(row, width, F::encode([0; 3]));
+                    for x in 0..width {
+                        F::store(row, x, F::encode_dithered(*rgb, x as i32, y));
+                    }
+                }
+                Background::Image(pixels) => {
+                    F::fill(row, width, F::encode([0; 3]));
+                    let picture = &pixels[y as usize * width..][..width];
+                    for (x, &rgb) in picture.iter().enumerate() {
+                        let pixel = if dither {
+                            F::encode_dithered(rgb, x as i32, y)
+                        } else {
+                            F::encode(rgb)
+                        };
+                        F::store(row, x, pixel);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Walks a triangle's covered pixels as runs.
+    #[inline(always)]
+    fn runs(&mut self, t: &Triangle, mut run: impl FnMut(&mut Self, i32, Range<i32>)) {
+        let (rows, width) = (self.rows.clone(), self.width as i32);
+        match self.traversal {
+            Traversal::Spans => spans(t, rows, width, |y, xs| run(self, y, xs)),
+            Traversal::Tiles => tiles(t, rows, width, |y, xs| run(self, y, xs)),
+        }
+    }
+
+    /// Depth, shade, output: a triangle's fragments.
+    #[inline]
+    pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, mut shader: S) {
+        self.runs(t, |target, y, xs| {
+            let dither = target.dither;
+            let (row, depths) = target.row(y);
+            let mut value = z.at(xs.start, y);
+            shader.place(xs.start, y);
+            let constant = F::encode(if S::CONSTANT { shader.colour() } else { [0; 3] });
+            let first = xs.start as usize;
+            for (i, stored) in depths[first..xs.end as usize].iter_mut().enumerate() {
+                if depth::test(stored, depth::round(value)) {
+                    let x = first + i;
+                    let pixel = if S::CONSTANT && !dither {
+                        constant
+                    } else if dither {
+                        F::encode_dithered(shader.colour(), x as i32, y)
+                    } else {
+                        F::encode(shader.colour())
+                    };
+                    F::store(row, x, pixel);
+                }
+                value = value.wrapping_add(z.gx);
+                shader.step();
+            }
+        });
+    }
+
+    /// Depth only, pushed back so that the triangle's own edges stay visible: by its steepest slope a pixel, at most 2048
+    /// steps, and two steps.
+    pub(super) fn mask(&mut self, t: &Triangle, z: &Plane) {
+        let slope = (z.gx as i32).unsigned_abs().max((z.gy as i32).unsigned_abs());
+        let bias = slope.min(2048 << 16) + (2 << 16);
+        self.runs(t, |target, y, xs| {
+            let (_, depths) = target.row(y);
+            let mut value = z.at(xs.start, y);
+            for stored in &mut depths[xs.start as usize..xs.end as usize] {
+                // Rounding may leave a value just below 0, which wraps to the top.
+                let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
+                depth::test(stored, pushed as u16);
+                value = value.wrapping_add(z.gx);
+            }
+        });
+    }
+
+    #[inline]
+    pub(super) fn plot(&mut self, x: i32, y: i32, z: Option<u16>, rgb: [u8; 3]) {
+        let pixel = self.encode(rgb, x, y);
+        let (row, depths) = self.row(y);
+        if z.is_none_or(|z| depth::test(&mut depths[x as usize], z)) {
+            F::store(row, x as usize, pixel);
+        }
+    }
+
+    /// Mixes a colour into what is there.
+    pub(super) fn mix(&mut self, x: i32, y: i32, z: Option<u16>, rgb: [u8; 3], weight: u8) {
+        let (row, depths) = self.row(y);
+        if z.is_none_or(|z| z < depths[x as usize]) {
+            let mixed = blend(F::load(row, x as usize), rgb, weight);
+            let pixel = self.encode(mixed, x, y);
+            F::store(self.row(y).0, x as usize, pixel);
+        }
+    }
+}
