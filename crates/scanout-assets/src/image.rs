@@ -244,7 +244,8 @@ fn jpeg(bytes: &[u8], name: &str) -> Result<Picture, LoadError> {
         bytestream::ZCursor, colorspace::ColorSpace, options::DecoderOptions,
     };
     let fail = |error: &dyn std::fmt::Debug| {
-        let text: String = format!("{error:?}").chars().take(120).collect();
+        let text = format!("{error:?}").replace(|c: char| c.is_control(), " ");
+        let text: String = text.trim().chars().take(120).collect();
         LoadError::malformed(name, At::File, format!("JPEG: {text}; export it again"))
     };
     let options = DecoderOptions::default()
