@@ -41,8 +41,14 @@ pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Mo
     for (index, face) in raw.faces.iter().enumerate() {
         by_material[face.material as usize].push(index as u32);
     }
-    let mut parts =
-        Parts { raw: &raw, grid: &grid, seen: HashSet::new(), parts: Vec::new(), tangled: 0 };
+    let mut parts = Parts {
+        raw: &raw,
+        grid: &grid,
+        seen: HashSet::new(),
+        parts: Vec::new(),
+        names: HashMap::new(),
+        tangled: 0,
+    };
     for (material, faces) in by_material.iter().enumerate() {
         parts.faces(material, faces, &normals, &mut stats);
         parts.lines_and_points(material);
@@ -108,6 +114,8 @@ struct Parts<'a> {
     /// Edges already drawn in some part.
     seen: HashSet<Edge>,
     parts: Vec<Part>,
+    /// How many parts have a name already.
+    names: HashMap<String, u32>,
     tangled: u64,
 }
 
@@ -172,11 +180,11 @@ impl Parts<'_> {
         }
         builder.mesh.bounds = Some(bounding_sphere(&builder.mesh.positions));
         let material = self.raw.materials.get(material).cloned().unwrap_or_default();
-        let same = self.parts.iter().rev().take_while(|p| p.material == material).count();
-        let name = if same == 0 {
-            material.name.clone()
-        } else {
-            format!("{} ({})", material.name, same + 1)
+        let count = self.names.entry(material.name.clone()).or_insert(0);
+        *count += 1;
+        let name = match *count {
+            1 => material.name.clone(),
+            count => format!("{} ({count})", material.name),
         };
         self.parts.push(Part { name, mesh: builder.mesh, material });
     }

@@ -180,10 +180,29 @@ fn read(
     };
     let source = Source { name, bytes, base, limits: &options.limits };
     match format {
-        Format::Obj => reader::obj::read(&source),
+        Format::Obj => match utf8(bytes) {
+            Some(text) => reader::obj::read(&Source { bytes: &text, ..source }),
+            None => reader::obj::read(&source),
+        },
         Format::Stl => reader::stl::read(&source),
         Format::Ply => reader::ply::read(&source),
         Format::Gltf => reader::gltf::read(&source),
+    }
+}
+
+/// Text that begins with a byte order mark, without it and as UTF-8; `None` for bytes without a mark.
+fn utf8(bytes: &[u8]) -> Option<Vec<u8>> {
+    let wide = |to_u16: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].chunks_exact(2).map(|pair| to_u16([pair[0], pair[1]]));
+        let text: String =
+            char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+        text.into_bytes()
+    };
+    match bytes {
+        [0xef, 0xbb, 0xbf, text @ ..] => Some(text.to_vec()),
+        [0xfe, 0xff, ..] => Some(wide(u16::from_be_bytes)),
+        [0xff, 0xfe, ..] => Some(wide(u16::from_le_bytes)),
+        _ => None,
     }
 }
 

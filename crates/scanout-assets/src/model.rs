@@ -96,7 +96,7 @@ impl Default for MaterialBuf {
 /// A mesh with one material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// The material's name, with a number when the material needs several parts.
+    /// The material's name, with a number from the second part of that name on.
     pub name: String,
     /// The mesh.
     pub mesh: MeshBuf,

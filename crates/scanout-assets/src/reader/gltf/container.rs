@@ -1,6 +1,6 @@
 //! Where the bytes are: GLB chunks, local files, data URIs.
 
-use super::schema::Document;
+use super::schema::{Document, Versioned};
 use crate::error::{At, LoadError};
 use crate::load::read_file;
 use crate::reader::{Source, find_file};
@@ -49,6 +49,12 @@ pub(super) fn parse<'a>(source: &Source<'a>) -> Result<(Document, Option<&'a [u8
 fn document(source: &Source<'_>, json: &[u8]) -> Result<Document, LoadError> {
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
     serde_json::from_slice(json).map_err(|error| {
+        // Version 1 has objects where version 2 has arrays.
+        let version = serde_json::from_slice::<Versioned>(json).map(|v| v.asset.version);
+        if version.is_ok_and(|version| version.starts_with('1')) {
+            let what = "glTF 1.0 is not read; convert it to glTF 2.0";
+            return LoadError::unsupported(source.name, At::File, what);
+        }
         let line = u32::try_from(error.line()).unwrap_or(u32::MAX);
         let text: String = error.to_string().chars().take(160).collect();
         LoadError::malformed(source.name, At::Line(line), format!("{text}; is this glTF 2.0?"))

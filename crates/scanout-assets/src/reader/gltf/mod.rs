@@ -31,6 +31,7 @@ const IDENTITY: Matrix = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0.
 fn is_known(extension: &str) -> bool {
     matches!(extension, "KHR_mesh_quantization" | "KHR_texture_transform" | "KHR_lights_punctual")
         || extension.starts_with("KHR_materials_")
+        || extension.starts_with("KHR_technique")
 }
 
 pub(crate) fn read(source: &Source<'_>) -> Result<Raw, LoadError> {

@@ -215,3 +215,22 @@ pub(super) struct Buffer {
     pub byte_length: usize,
     pub uri: Option<String>,
 }
+
+/// Enough of any version to tell which one it is.
+#[derive(Debug, Deserialize)]
+pub(super) struct Versioned {
+    #[serde(default)]
+    pub asset: Asset,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Asset {
+    pub version: String,
+}
+
+impl Default for Asset {
+    /// Files of version 1 may leave it out.
+    fn default() -> Self {
+        Self { version: "1.0".into() }
+    }
+}

@@ -148,6 +148,8 @@ fn broken_files_are_one_line() {
         ("{".to_string(), "t.gltf:1: EOF"),
         ("[1]".into(), "t.gltf:1: "),
         ("{}".into(), "t.gltf: no vertices"),
+        (r#"{"asset": {"version": "1.0"}, "meshes": {}}"#.into(), "t.gltf: glTF 1.0 is not read"),
+        (r#"{"meshes": 1}"#.into(), "t.gltf: glTF 1.0 is not read"),
         (with(r#""count": 4"#, r#""count": 5"#), "t.gltf: 5 elements don't fit"),
         (with(r#""count": 4"#, r#""count": 99999999999"#), "t.gltf: accessor 0 has 99999999999"),
         (with(r#""count": 4"#, r#""count": -4"#), "t.gltf:3: invalid"),

@@ -64,6 +64,8 @@ pub(super) struct Header {
     pub elements: Vec<Element>,
     /// From `comment TextureFile NAME`.
     pub texture: Option<String>,
+    /// Lines that are not understood.
+    pub unknown: u64,
 }
 
 /// Lines that a header may have.
@@ -126,7 +128,8 @@ pub(super) fn parse<'a>(source: &'a Source<'a>) -> Result<(Header, Values<'a>), 
                 return Ok((header, values));
             }
             [] | ["comment" | "obj_info", ..] => {}
-            _ => return fail(format!("'{line}' is no header line of PLY")),
+            // Some exporters break their comments over several lines.
+            _ => header.unknown += 1,
         }
     }
     Err(LoadError::malformed(source.name, At::Line(LINES), "the header does not end"))

@@ -282,6 +282,7 @@ impl Ply<'_> {
     }
 
     fn finish(mut self, header: &Header) -> Result<Raw, LoadError> {
+        self.raw.warnings.counted(header.unknown, "header lines are not understood");
         let material = &mut self.raw.materials[0];
         if !self.raw.colours.is_empty() {
             material.colour = [255; 3];

@@ -104,7 +104,7 @@ fn broken_files_are_one_line() {
         (b"plx\n".to_vec(), "t.ply:1: the first line"),
         (b"ply\nformat ascii 1.0".to_vec(), "t.ply:2: the header has no end_header"),
         (b"ply\nend_header\n".to_vec(), "t.ply:2: the header has no format"),
-        (b"ply\n\xff\xfe\n".to_vec(), "t.ply:2: '"),
+        (b"ply\n\xff\xfe\n".to_vec(), "t.ply:3: the header has no end_header"),
         (with("ascii", "utf8"), "t.ply:2: unknown"),
         (with("vertex 5", "vertex five"), "t.ply:4: 'five'"),
         (with("vertex 5", "vertex 99999999999"), "t.ply: 99999999999 'vertex' elements"),
