@@ -40,6 +40,21 @@ pub trait PixelFormat: Copy + 'static {
     fn store(row: &mut [Self::Word], x: usize, pixel: Self::Pixel);
     /// The colour at column `x` of a row, widened to 8 bits a channel by bit replication.
     fn load(row: &[Self::Word], x: usize) -> [u8; 3];
+    /// Visits the depths of columns from `first` on, one for each of `depths`, and stores the pixel where the visitor returns
+    /// one.
+    #[inline(always)]
+    fn visit(
+        row: &mut [Self::Word],
+        first: usize,
+        depths: &mut [u16],
+        mut visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
+    ) {
+        for (i, depth) in depths.iter_mut().enumerate() {
+            if let Some(pixel) = visitor(i, depth) {
+                Self::store(row, first + i, pixel);
+            }
+        }
+    }
     /// Fills `width` pixels of a row.
     fn fill(row: &mut [Self::Word], width: usize, pixel: Self::Pixel);
     /// Gives the bytes of a row in the order of the frame hash (see [`hash`](crate::hash)).
@@ -71,6 +86,22 @@ pub fn widen565(p: u16) -> [u8; 3] {
     [r << 3 | r >> 2, g << 2 | g >> 4, b << 3 | b >> 2]
 }
 
+/// [`PixelFormat::visit`] where a word is a pixel: no bounds to check inside.
+#[inline(always)]
+fn visit_words<P: Copy>(
+    row: &mut [P],
+    first: usize,
+    depths: &mut [u16],
+    mut visitor: impl FnMut(usize, &mut u16) -> Option<P>,
+) {
+    let words = &mut row[first..first + depths.len()];
+    for (i, (word, depth)) in words.iter_mut().zip(depths).enumerate() {
+        if let Some(pixel) = visitor(i, depth) {
+            *word = pixel;
+        }
+    }
+}
+
 /// 8 bits a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rgb888 {}
@@ -99,6 +130,15 @@ impl PixelFormat for Rgb888 {
     #[inline(always)]
     fn load(row: &[[u8; 3]], x: usize) -> [u8; 3] {
         row[x]
+    }
+    #[inline(always)]
+    fn visit(
+        row: &mut [Self::Word],
+        first: usize,
+        depths: &mut [u16],
+        visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
+    ) {
+        visit_words(row, first, depths, visitor);
     }
     fn fill(row: &mut [[u8; 3]], width: usize, pixel: [u8; 3]) {
         row[..width].fill(pixel);
@@ -137,6 +177,15 @@ impl PixelFormat for Rgb565 {
     fn load(row: &[u16], x: usize) -> [u8; 3] {
         widen565(row[x])
     }
+    #[inline(always)]
+    fn visit(
+        row: &mut [Self::Word],
+        first: usize,
+        depths: &mut [u16],
+        visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
+    ) {
+        visit_words(row, first, depths, visitor);
+    }
     fn fill(row: &mut [u16], width: usize, pixel: u16) {
         row[..width].fill(pixel);
     }
@@ -174,6 +223,15 @@ impl PixelFormat for Rgb332 {
     fn load(row: &[u8], x: usize) -> [u8; 3] {
         let (r, g, b) = (row[x] >> 5, row[x] >> 2 & 7, row[x] & 3);
         [r << 5 | r << 2 | r >> 1, g << 5 | g << 2 | g >> 1, b * 85]
+    }
+    #[inline(always)]
+    fn visit(
+        row: &mut [Self::Word],
+        first: usize,
+        depths: &mut [u16],
+        visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
+    ) {
+        visit_words(row, first, depths, visitor);
     }
     fn fill(row: &mut [u8], width: usize, pixel: u8) {
         row[..width].fill(pixel);

@@ -7,7 +7,7 @@ use super::{Stats, Store};
 use crate::clip::{self, Corner};
 use crate::cull::{Facing, facing, facing_in_clip_space, sphere_outside};
 use crate::light::{Lighting, MAX_LIGHTS};
-use crate::math::normalise;
+use crate::math::normalise_q14;
 use crate::mesh::{Mesh, Normals};
 use crate::scene::{Background, Mode, Object, Scene};
 use crate::setup::{first_pixel, signed_area};
@@ -34,12 +34,15 @@ pub(super) fn surface_colour(object: &Object, position: u16) -> [u8; 3] {
     }
 }
 
-/// The unit normal of a triangle from its corners, Q2.14; zero without area.
+/// The unit normal of a triangle from its corners, Q2.14; zero without area. The cross product (35 bits) is cut to 31
+/// bits before it is normalised.
 pub(super) fn geometric_normal(mesh: &Mesh, triangle: [u16; 3]) -> [i16; 3] {
     let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].map(i64::from));
     let (d, e) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
     let cross = [d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]];
-    normalise(cross).map_or([0; 3], |n| n.map(|v| ((v + (1 << 15)) >> 16) as i16))
+    let size = cross.iter().fold(0, |bits, v| bits | v.unsigned_abs());
+    let drop = (64 - size.leading_zeros()).saturating_sub(31);
+    normalise_q14(cross.map(|v| (v >> drop) as i32)).map(|v| v as i16)
 }
 
 impl<'a> Frame<'a> {

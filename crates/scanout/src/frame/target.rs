@@ -8,7 +8,7 @@ use crate::depth;
 use crate::interpolate::Plane;
 use crate::output::PixelFormat;
 use crate::raster::line::ClipRect;
-use crate::raster::triangle::{spans, tiles};
+use crate::raster::triangle::{Run, spans, tiles};
 use crate::scene::Background;
 use crate::setup::Triangle;
 use crate::shade::blend;
@@ -72,57 +72,77 @@ impl<F: PixelFormat> Target<'_, F> {
         }
     }
 
-    /// Walks a triangle's covered pixels as runs.
-    #[inline(always)]
-    fn runs(&mut self, t: &Triangle, mut run: impl FnMut(&mut Self, i32, Range<i32>)) {
+    /// Walks a triangle's covered pixels.
+    #[inline]
+    fn runs(&mut self, t: &Triangle, mut batch: impl FnMut(&mut Self, &[Run])) {
         let (rows, width) = (self.rows.clone(), self.width as i32);
         match self.traversal {
-            Traversal::Spans => spans(t, rows, width, |y, xs| run(self, y, xs)),
-            Traversal::Tiles => tiles(t, rows, width, |y, xs| run(self, y, xs)),
+            Traversal::Spans => spans(t, rows, width, &mut |runs| batch(self, runs)),
+            Traversal::Tiles => tiles(t, rows, width, &mut |runs| batch(self, runs)),
         }
     }
 
     /// Depth, shade, output: a triangle's fragments.
-    #[inline]
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, mut shader: S) {
-        self.runs(t, |target, y, xs| {
-            let dither = target.dither;
-            let (row, depths) = target.row(y);
-            let mut value = z.at(xs.start, y);
-            shader.place(xs.start, y);
-            let constant = F::encode(if S::CONSTANT { shader.colour() } else { [0; 3] });
-            let first = xs.start as usize;
-            for (i, stored) in depths[first..xs.end as usize].iter_mut().enumerate() {
-                if depth::test(stored, depth::round(value)) {
-                    let x = first + i;
-                    let pixel = if S::CONSTANT && !dither {
-                        constant
-                    } else if dither {
-                        F::encode_dithered(shader.colour(), x as i32, y)
-                    } else {
-                        F::encode(shader.colour())
-                    };
-                    F::store(row, x, pixel);
-                }
-                value = value.wrapping_add(z.gx);
-                shader.step();
-            }
-        });
+        if self.dither {
+            self.runs(t, |target, runs| target.fill_dithered(z, &mut shader, runs));
+        } else {
+            self.runs(t, |target, runs| target.fill_runs(z, &mut shader, runs));
+        }
     }
 
-    /// Depth only, pushed back so that the triangle's own edges stay visible: by its steepest slope a pixel, at most 2048
-    /// steps, and two steps.
+    #[inline(never)]
+    fn fill_runs<S: Shader>(&mut self, z: &Plane, shader: &mut S, runs: &[Run]) {
+        let constant = F::encode(if S::CONSTANT { shader.colour() } else { [0; 3] });
+        for run in runs.iter().filter(|run| run.x0 < run.x1) {
+            let (row, depths) = self.row(run.y);
+            let depths = &mut depths[run.x0 as usize..run.x1 as usize];
+            let mut value = z.at(run.x0, run.y);
+            shader.place(run.x0, run.y);
+            F::visit(row, run.x0 as usize, depths, |_, stored| {
+                let pass = depth::test(stored, depth::round(value));
+                let pixel =
+                    pass.then(|| if S::CONSTANT { constant } else { F::encode(shader.colour()) });
+                value = value.wrapping_add(z.gx);
+                shader.step();
+                pixel
+            });
+        }
+    }
+
+    #[inline(never)]
+    fn fill_dithered<S: Shader>(&mut self, z: &Plane, shader: &mut S, runs: &[Run]) {
+        for run in runs.iter().filter(|run| run.x0 < run.x1) {
+            let (row, depths) = self.row(run.y);
+            let depths = &mut depths[run.x0 as usize..run.x1 as usize];
+            let mut value = z.at(run.x0, run.y);
+            shader.place(run.x0, run.y);
+            F::visit(row, run.x0 as usize, depths, |i, stored| {
+                let pass = depth::test(stored, depth::round(value));
+                let x = run.x0 + i as i32;
+                let pixel = pass.then(|| F::encode_dithered(shader.colour(), x, run.y));
+                value = value.wrapping_add(z.gx);
+                shader.step();
+                pixel
+            });
+        }
+    }
+
+    /// Depth only, pushed back so that the triangle's own edges stay visible: by its steepest slope a
+    /// pixel, at most 2048 steps, and two steps.
     pub(super) fn mask(&mut self, t: &Triangle, z: &Plane) {
         let slope = (z.gx as i32).unsigned_abs().max((z.gy as i32).unsigned_abs());
         let bias = slope.min(2048 << 16) + (2 << 16);
-        self.runs(t, |target, y, xs| {
-            let (_, depths) = target.row(y);
-            let mut value = z.at(xs.start, y);
-            for stored in &mut depths[xs.start as usize..xs.end as usize] {
-                // Rounding may leave a value just below 0, which wraps to the top.
-                let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
-                depth::test(stored, pushed as u16);
-                value = value.wrapping_add(z.gx);
+        self.runs(t, |target, runs| {
+            for run in runs.iter().filter(|run| run.x0 < run.x1) {
+                let (_, depths) = target.row(run.y);
+                let mut value = z.at(run.x0, run.y);
+                for stored in &mut depths[run.x0 as usize..run.x1 as usize] {
+                    // Rounding may leave a value just below 0, which wraps to the top.
+                    let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
+                    depth::test(stored, pushed as u16);
+                    value = value.wrapping_add(z.gx);
+                }
             }
         });
     }

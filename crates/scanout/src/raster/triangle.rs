@@ -61,7 +61,9 @@ macro_rules! word {
             }
             #[inline(always)]
             fn column(self) -> i32 {
-                self.clamp(-(1 << 30), 1 << 30) as i32
+                const LIMIT: $t = 1 << 29;
+                // Spans of small triangles are columns already.
+                if size_of::<$t>() == 4 { self as i32 } else { self.clamp(-LIMIT, LIMIT) as i32 }
             }
         }
     };
@@ -70,7 +72,7 @@ word!(i32);
 word!(i64);
 
 /// `floor((b y + k) / d)` from row to row.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Bound<W> {
     f: W,
     remainder: W,
@@ -99,9 +101,22 @@ impl<W: Word> Bound<W> {
     }
 }
 
-/// Emits `(y, x0..x1)` for every row in `rows` that has covered pixels in columns `0..width`, from the top.
-#[inline]
-pub fn spans(t: &Triangle, rows: Range<i32>, width: i32, emit: impl FnMut(i32, Range<i32>)) {
+/// A run of covered pixels in one row: columns `x0..x1`; none where `x0 >= x1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Run {
+    /// Row.
+    pub y: i32,
+    /// First column.
+    pub x0: i32,
+    /// One past the last column.
+    pub x1: i32,
+}
+
+/// How many runs are handed over at once: enough for most triangles, small enough for a small stack.
+pub const BATCH: usize = 32;
+
+/// Gives the runs of a triangle row by row, from the top, in batches; only `rows` and columns `0..width`.
+pub fn spans(t: &Triangle, rows: Range<i32>, width: i32, emit: &mut dyn FnMut(&[Run])) {
     if t.small {
         solve::<i32>(t, rows, width, emit);
     } else {
@@ -110,45 +125,50 @@ pub fn spans(t: &Triangle, rows: Range<i32>, width: i32, emit: impl FnMut(i32, R
 }
 
 #[inline(always)]
-fn solve<W: Word>(
-    t: &Triangle,
-    rows: Range<i32>,
-    width: i32,
-    mut emit: impl FnMut(i32, Range<i32>),
-) {
+fn solve<W: Word>(t: &Triangle, rows: Range<i32>, width: i32, emit: &mut dyn FnMut(&[Run])) {
     let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
     if top >= bottom || t.max[0] <= 0 || t.min[0] >= width {
         return;
     }
-    // A triangle with area has one or two left edges and one or two right ones; a missing second repeats the first.
-    let mut left: [Option<Bound<W>>; 2] = [None; 2];
-    let mut right: [Option<Bound<W>>; 2] = [None; 2];
-    for edge in t.edges.iter().filter(|edge| edge.a != 0) {
-        let side = if edge.a > 0 { &mut left } else { &mut right };
-        let bound = Some(Bound::new(edge, top));
-        if side[0].is_none() {
-            side[0] = bound;
-        } else {
-            side[1] = bound;
+    // A triangle with area has a left and a right edge and, unless one is horizontal, a second on one side.
+    let [e, f, g] = &t.edges;
+    let (lone, first, second) = if e.a == 0 {
+        (f, g, g)
+    } else if f.a == 0 {
+        (g, e, e)
+    } else if g.a == 0 {
+        (e, f, f)
+    } else if (f.a ^ g.a) >= 0 {
+        (e, f, g)
+    } else if (e.a ^ g.a) >= 0 {
+        (f, g, e)
+    } else {
+        (g, e, f)
+    };
+    let pair_left = first.a > 0;
+    let mut lone: Bound<W> = Bound::new(lone, top);
+    let mut first: Bound<W> = Bound::new(first, top);
+    let mut second: Bound<W> = Bound::new(second, top);
+    let mut runs = [Run::default(); BATCH];
+    let mut y = top;
+    while y < bottom {
+        let mut count = 0;
+        for slot in runs.iter_mut().take((bottom - y) as usize) {
+            let (f, g) = (lone.f.column(), first.f.min(second.f).column());
+            let (left, right) = if pair_left { (g, f) } else { (f, g) };
+            *slot = Run { y, x0: (-left).max(0), x1: (right + 1).min(width) };
+            count += 1;
+            y += 1;
+            lone.advance();
+            first.advance();
+            second.advance();
         }
-    }
-    let (Some(mut l0), Some(mut r0)) = (left[0], right[0]) else { return };
-    let (mut l1, mut r1) = (left[1].unwrap_or(l0), right[1].unwrap_or(r0));
-    for y in top..bottom {
-        let x0 = (-l0.f.min(l1.f).column()).max(0);
-        let x1 = r0.f.min(r1.f).column().saturating_add(1).min(width);
-        if x0 < x1 {
-            emit(y, x0..x1);
-        }
-        l0.advance();
-        l1.advance();
-        r0.advance();
-        r1.advance();
+        emit(&runs[..count]);
     }
 }
 
-/// Emits runs of covered pixels tile by tile (8 x 8 pixels, rows of tiles from the top, tiles from the left).
-pub fn tiles(t: &Triangle, rows: Range<i32>, width: i32, mut emit: impl FnMut(i32, Range<i32>)) {
+/// Gives the same pixels tile by tile (8 x 8 pixels, rows of tiles from the top, tiles from the left).
+pub fn tiles(t: &Triangle, rows: Range<i32>, width: i32, emit: &mut dyn FnMut(&[Run])) {
     const SIDE: i32 = 8;
     let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
     let (first, last) = (t.min[0].max(0), t.max[0].min(width));
@@ -158,9 +178,9 @@ pub fn tiles(t: &Triangle, rows: Range<i32>, width: i32, mut emit: impl FnMut(i3
             for y in tile_y.max(top)..(tile_y + SIDE).min(bottom) {
                 let inside = |x: &i32| t.covers(*x, y);
                 let columns = tile_x.max(first)..(tile_x + SIDE).min(last);
-                if let Some(start) = columns.clone().find(inside) {
-                    let end = (start..columns.end).find(|x| !inside(x)).unwrap_or(columns.end);
-                    emit(y, start..end);
+                if let Some(x0) = columns.clone().find(inside) {
+                    let x1 = (x0..columns.end).find(|x| !inside(x)).unwrap_or(columns.end);
+                    emit(&[Run { y, x0, x1 }]);
                 }
             }
         }
@@ -175,15 +195,17 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    type Traversal = fn(&Triangle, Range<i32>, i32, &mut dyn FnMut(i32, Range<i32>));
-    const SPANS: Traversal = |t, rows, width, emit| spans(t, rows, width, emit);
-    const TILES: Traversal = |t, rows, width, emit| tiles(t, rows, width, emit);
+    type Traversal = fn(&Triangle, Range<i32>, i32, &mut dyn FnMut(&[Run]));
+    const SPANS: Traversal = spans;
+    const TILES: Traversal = tiles;
 
     fn count(v: [[i32; 2]; 3], size: i32, traverse: Traversal) -> Vec<u8> {
         let mut pixels = vec![0u8; (size * size) as usize];
         if let Some(t) = Triangle::new(v) {
-            traverse(&t, 0..size, size, &mut |y, xs| {
-                xs.for_each(|x| pixels[(y * size + x) as usize] += 1)
+            traverse(&t, 0..size, size, &mut |runs| {
+                for run in runs {
+                    (run.x0..run.x1).for_each(|x| pixels[(run.y * size + x) as usize] += 1)
+                }
             });
         }
         pixels
