@@ -1,0 +1,153 @@
+//! `count CASE FRAMES`: prepares everything, then draws the frame FRAMES times: what `instructions.py` runs in valgrind.
+//!
+//! A case is `SOURCE:LOOK:WIDTHxHEIGHT` (see `scenes::Case`), with a prefix `prepare:` to stop before drawing, or
+//! `lines:long|short:KIND`, which draws a thousand lines a frame:
+//!
+//! | kind | what is drawn |
+//! |---|---|
+//! | `fill` | RGB565 words of one value, `fill_cells` |
+//! | `flat` | the same through `walk_cells` |
+//! | `colour` | colour interpolated, to RGB565 |
+//! | `depth` | one value, depth interpolated and tested |
+//! | `full` | colour and depth: `walk` |
+//!
+//! `count CASE 0` prints, separated by tabs, what the frame consists of: triangles, vertices, primitives kept, bytes
+//! of the store, bytes of colour and depth, frame hash; for lines their number and mean length in pixels.
+
+use std::env;
+use std::hint::black_box;
+use std::process::ExitCode;
+
+use scanout::output::{PixelFormat, Rgb565};
+use scanout::raster::line::{fill_cells, walk, walk_cells};
+use scanout_benches::lines::{self, CLIP, HEIGHT, Line, WIDTH};
+use scanout_benches::scenes::{Case, Data};
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let [case, frames] = arguments.as_slice() else {
+        eprintln!("usage: count CASE FRAMES (for example 5000:gouraud:320x240 3)");
+        return ExitCode::from(2);
+    };
+    let done = match frames.parse() {
+        Err(_) => Err(format!("{frames}: not a number of frames")),
+        Ok(frames) => run(case, frames),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("count: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(case: &str, frames: u32) -> Result<(), String> {
+    if let Some(name) = case.strip_prefix("lines:") {
+        return draw_lines(name, frames);
+    }
+    let (case, prepare_only) = match case.strip_prefix("prepare:") {
+        Some(rest) => (rest, true),
+        None => (case, false),
+    };
+    let data = Data::new(Case::parse(case)?)?;
+    data.with(|scene, settings, memory| {
+        if frames == 0 {
+            let (frame, colour, depth) = memory.prepare(scene, settings);
+            let hash = frame.hash::<Rgb565>(settings.height, colour, depth);
+            let stats = frame.stats();
+            let needed = scanout::frame::Needed {
+                vertices: stats.vertices as usize,
+                primitives: stats.primitives as usize,
+                objects: scene.objects.len(),
+            };
+            println!(
+                "{}\t{}\t{}\t{}\t{}\t{:016x}",
+                stats.triangles,
+                stats.vertices,
+                stats.primitives,
+                needed.bytes(),
+                (colour.len() + depth.len()) * 2,
+                hash.expect("memory for all rows"),
+            );
+        }
+        for _ in 0..frames {
+            if prepare_only {
+                black_box(memory.prepare(black_box(scene), settings));
+            } else {
+                memory.draw(black_box(scene), settings);
+                black_box(&mut *memory);
+            }
+        }
+    });
+    Ok(())
+}
+
+fn draw_lines(name: &str, frames: u32) -> Result<(), String> {
+    let (set, kind) = name.split_once(':').unwrap_or((name, "fill"));
+    let lines = match set {
+        "long" => lines::long(),
+        "short" => lines::short(),
+        _ => return Err(format!("lines:{name}: long or short")),
+    };
+    let draw = match kind {
+        "fill" => fill,
+        "flat" => flat,
+        "colour" => colour,
+        "depth" => depth,
+        "full" => full,
+        _ => return Err(format!("lines:{name}: fill, flat, colour, depth or full")),
+    };
+    if frames == 0 {
+        println!("{}\t{:.1}", lines.len(), lines::mean_pixels(&lines));
+    }
+    let pixels = WIDTH as usize * HEIGHT as usize;
+    let (mut colours, mut depths) = (vec![0; pixels], vec![u16::MAX; pixels]);
+    for _ in 0..frames {
+        for line in &lines {
+            draw(black_box(line), &mut colours, &mut depths);
+        }
+        black_box((&mut colours, &mut depths));
+    }
+    Ok(())
+}
+
+const STRIDE: usize = WIDTH as usize;
+
+#[inline(never)]
+fn fill([a, b]: &Line, colours: &mut [u16], _: &mut [u16]) {
+    fill_cells(colours, STRIDE, CLIP, a, b, Rgb565::encode(a.rgb));
+}
+
+#[inline(never)]
+fn flat([a, b]: &Line, colours: &mut [u16], _: &mut [u16]) {
+    let value = Rgb565::encode(a.rgb);
+    walk_cells::<false, false>(a, b, CLIP, STRIDE, |i, _, _| colours[i] = value);
+}
+
+#[inline(never)]
+fn colour([a, b]: &Line, colours: &mut [u16], _: &mut [u16]) {
+    walk_cells::<true, false>(a, b, CLIP, STRIDE, |i, _, rgb| colours[i] = Rgb565::encode(rgb));
+}
+
+#[inline(never)]
+fn depth([a, b]: &Line, colours: &mut [u16], depths: &mut [u16]) {
+    let value = Rgb565::encode(a.rgb);
+    walk_cells::<false, true>(a, b, CLIP, STRIDE, |i, z, _| {
+        if z <= depths[i] {
+            depths[i] = z;
+            colours[i] = value;
+        }
+    });
+}
+
+#[inline(never)]
+fn full([a, b]: &Line, colours: &mut [u16], depths: &mut [u16]) {
+    walk(a, b, CLIP, |x, y, z, rgb| {
+        let i = y as usize * STRIDE + x as usize;
+        if z <= depths[i] {
+            depths[i] = z;
+            colours[i] = Rgb565::encode(rgb);
+        }
+    });
+}

@@ -1,0 +1,4 @@
+//! What the benchmarks draw: the same scenes for instruction counts, for times and for the peers.
+
+pub mod lines;
+pub mod scenes;
