@@ -229,7 +229,7 @@ fn at_border(exact: &Exact, texture: &Texture, rounding: &Rounding) -> bool {
 fn texel_rounding(exact: &Exact, texture: &Texture, rounding: &Rounding) -> [f64; 2] {
     let q = exact.q.to_f64();
     let direction = |n: usize, size: u32| {
-        let u = exact.uv[n].to_f64().abs();
+        let u = (exact.uv[n].to_f64() - rounding.origin[n]).abs();
         let quotient = (rounding.uvq[n] + u * rounding.q) / (q - rounding.q).max(f64::MIN_POSITIVE);
         let float = 2.0 * (u + 65536.0) / f64::from(1 << 24);
         (quotient + float) * f64::from(size) / 65536.0 + rounding.texel
@@ -289,7 +289,14 @@ mod tests {
         }
 
         fn rounding(&self, _: &Triangle) -> Rounding {
-            Rounding { colour: 0.0, depth: 0.0, uvq: [0.0; 2], q: 0.0, texel: 0.0 }
+            Rounding {
+                colour: 0.0,
+                depth: 0.0,
+                uvq: [0.0; 2],
+                q: 0.0,
+                origin: [0.0; 2],
+                texel: 0.0,
+            }
         }
 
         fn coverage(&mut self, triangle: &Triangle) -> Coverage {

@@ -332,7 +332,14 @@ impl Renderer for Llvmpipe {
         let uvq =
             [0, 1].map(|n| self.plane_rounding(triangle, |v| f64::from(v.uv[n]) * f64::from(v.q)));
         let q = self.plane_rounding(triangle, |v| v.q.into());
-        Rounding { colour: colour.into_iter().fold(0.0, f64::max), depth, uvq, q, texel: 0.0 }
+        Rounding {
+            colour: colour.into_iter().fold(0.0, f64::max),
+            depth,
+            uvq,
+            q,
+            origin: [0.0; 2],
+            texel: 0.0,
+        }
     }
 
     fn coverage(&mut self, triangle: &Triangle) -> Coverage {

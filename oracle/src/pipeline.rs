@@ -2,7 +2,7 @@
 //! frame loop calls them.
 
 use scanout::interpolate::channel;
-use scanout::raster::triangle::spans;
+use scanout::raster::triangle::{Run, spans};
 use scanout::texture::{TextureSetup, integer_q, reciprocal};
 use scanout::{depth, setup, texture};
 
@@ -30,11 +30,13 @@ impl Pipeline {
         let corners = triangle.0.map(|v| [v.x, v.y]);
         let Some(prepared) = setup::Triangle::new(corners) else { return picture };
         let width = self.width as i32;
-        spans(&prepared, 0..self.height as i32, width, |y, columns| {
-            for x in columns {
-                let pixel = &mut picture.pixels[(y * width + x) as usize];
-                assert!(pixel.is_none(), "pixel {x}, {y} drawn twice");
-                *pixel = Some(value(&prepared, x, y));
+        spans(&prepared, 0..self.height as i32, width, &mut |runs| {
+            for &Run { y, x0, x1 } in runs {
+                for x in x0..x1 {
+                    let pixel = &mut picture.pixels[(y * width + x) as usize];
+                    assert!(pixel.is_none(), "pixel {x}, {y} drawn twice");
+                    *pixel = Some(value(&prepared, x, y));
+                }
             }
         });
         picture
@@ -63,9 +65,13 @@ impl Renderer for Pipeline {
         };
         let units = 0.5 * (extent(|v| v.x) + extent(|v| v.y)) + 2.0;
         let shift = q_shift(triangle);
+        // Whole repeats are taken off first.
+        let origin = [0, 1].map(|n| {
+            let low = triangle.0.iter().map(|v| v.uv[n]).fold(i32::MAX, i32::min);
+            f64::from(low & !0xffff)
+        });
         let largest = |n: usize| {
-            let low = triangle.0.iter().map(|v| v.uv[n]).fold(i32::MAX, i32::min) & !0xffff;
-            let product = |v: &Vertex| (f64::from(v.uv[n]) - f64::from(low)) * f64::from(v.q);
+            let product = |v: &Vertex| (f64::from(v.uv[n]) - origin[n]) * f64::from(v.q);
             triangle.0.iter().map(product).fold(0.0, f64::max)
         };
         Rounding {
@@ -73,6 +79,7 @@ impl Renderer for Pipeline {
             depth: 0.0,
             uvq: [0, 1].map(|n| units * largest(n) / f64::from(1 << 30)),
             q: (units / 256.0 + 1.0) / f64::from(1 << shift),
+            origin,
             texel: 2.0 / 8192.0,
         }
     }

@@ -135,6 +135,8 @@ pub struct Rounding {
     pub uvq: [f64; 2],
     /// Of the plane q, in the corners' unit.
     pub q: f64,
+    /// Where the renderer's own texture coordinates begin, in Q16.16: an error of q counts for the distance from there.
+    pub origin: [f64; 2],
     /// Of texture coordinates besides what comes from the planes, in texels.
     pub texel: f64,
 }
