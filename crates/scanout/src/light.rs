@@ -71,6 +71,7 @@ pub struct Lighting {
     floor: i32,
     shininess: u16,
     shines: bool,
+    near: bool,
     space: Space,
 }
 
@@ -171,8 +172,14 @@ impl Lighting {
             floor: q14(floor),
             shininess: material.shininess.max(1),
             shines: specular > 0,
+            near: specular > 0 || lights.iter().any(|l| matches!(l.kind, LightKind::Point(_))),
             space,
         }
+    }
+
+    /// Whether light depends on where it falls: there are point lights or there is a shine.
+    pub fn needs_position(&self) -> bool {
+        self.near
     }
 
     /// A mesh normal and position in the space where lighting happens, the normal of unit length (Q2.14).

@@ -77,11 +77,11 @@ pub struct Triangle {
     extra_bits: u32,
 }
 
-/// Twice the area with its sign, 1/256 pixel^2: positive for clockwise corners on the screen.
+/// Twice the area with its sign, 1/256 pixel^2: positive for clockwise corners on the screen. Coordinates within +-2^29.
 #[inline(always)]
 pub fn signed_area(v: &[[i32; 2]; 3]) -> i64 {
-    let d1 = [v[1][0] as i64 - v[0][0] as i64, v[1][1] as i64 - v[0][1] as i64];
-    let d2 = [v[2][0] as i64 - v[0][0] as i64, v[2][1] as i64 - v[0][1] as i64];
+    let d1 = [(v[1][0] - v[0][0]) as i64, (v[1][1] - v[0][1]) as i64];
+    let d2 = [(v[2][0] - v[0][0]) as i64, (v[2][1] - v[0][1]) as i64];
     d1[0] * d2[1] - d2[0] * d1[1]
 }
 

@@ -17,7 +17,7 @@ use crate::raster::point::draw_point;
 use crate::raster::smooth_line::{SmoothEnd, walk_smooth};
 use crate::scene::{Mode, Object};
 use crate::setup::Triangle;
-use crate::texture::{Texture, TextureSetup};
+use crate::texture::{General, Repeat565, Texture, TextureSetup};
 use crate::transform::{Vertex, Viewport, common_inverse_w};
 
 impl<'a> Frame<'a> {
@@ -266,7 +266,10 @@ impl<'f> Painter<'f> {
                 let uv = [0, 1, 2].map(|k| self.uv(corners, k));
                 let setup = TextureSetup::new(t, texture, uv, q);
                 let q = t.plane(q.map(|q| q << 8));
-                self.fog(t, v, z, Textured::new(shader, setup, q), target);
+                match Repeat565::new(texture) {
+                    Some(fast) => self.fog(t, v, z, Textured::new(shader, fast, setup, q), target),
+                    None => self.fog(t, v, z, Textured::new(shader, General, setup, q), target),
+                }
             }
             None => self.fog(t, v, z, shader, target),
         }

@@ -8,7 +8,7 @@ use crate::light::Lighting;
 use crate::math::normalise_q14;
 use crate::setup::Triangle;
 use crate::shade::{FogWeights, blend, modulate};
-use crate::texture::{TextureSetup, integer_q, reciprocal};
+use crate::texture::{Sampler, TextureSetup, integer_q, reciprocal};
 
 /// Colours of fragments along a row.
 pub(super) trait Shader {
@@ -86,35 +86,38 @@ impl Shader for Gouraud {
 }
 
 /// Another shader's colour times a texel.
-pub(super) struct Textured<'a, S> {
+pub(super) struct Textured<'a, S, T> {
     inner: S,
+    sampler: T,
     setup: TextureSetup<'a>,
-    q: Plane,
-    x: i32,
-    y: i32,
+    q: Walk,
+    st: [Walk; 2],
 }
 
-impl<'a, S> Textured<'a, S> {
-    pub(super) fn new(inner: S, setup: TextureSetup<'a>, q: Plane) -> Self {
-        Textured { inner, setup, q, x: 0, y: 0 }
+impl<'a, S, T> Textured<'a, S, T> {
+    pub(super) fn new(inner: S, sampler: T, setup: TextureSetup<'a>, q: Plane) -> Self {
+        Textured { inner, sampler, setup, q: Walk::new(q), st: setup.st.map(Walk::new) }
     }
 }
 
-impl<S: Shader> Shader for Textured<'_, S> {
+impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
     #[inline(always)]
     fn place(&mut self, x: i32, y: i32) {
         self.inner.place(x, y);
-        (self.x, self.y) = (x, y);
+        self.q.place(x, y);
+        self.st.iter_mut().for_each(|w| w.place(x, y));
     }
     #[inline(always)]
     fn step(&mut self) {
         self.inner.step();
-        self.x += 1;
+        self.q.step();
+        self.st.iter_mut().for_each(Walk::step);
     }
     #[inline(always)]
     fn colour(&self) -> [u8; 3] {
-        let q = integer_q(self.q.at(self.x, self.y));
-        modulate(self.setup.at(self.x, self.y, q, reciprocal(q)), self.inner.colour())
+        let q = integer_q(self.q.value);
+        let st = [self.st[0].value, self.st[1].value];
+        modulate(self.sampler.texel(&self.setup, st, q, reciprocal(q)), self.inner.colour())
     }
 }
 

@@ -205,21 +205,22 @@ impl ObjectPass<'_> {
     /// Transform and light: positions to screen vertices.
     fn transform(&self, vertices: &mut [Vertex], lighting: &Lighting) {
         let mesh = self.object.mesh;
-        let gouraud = match (self.object.mode, mesh.normals) {
-            (Mode::Gouraud, Normals::Vertex(normals)) => Some(normals),
-            _ => None,
-        };
-        for (i, (vertex, &position)) in vertices.iter_mut().zip(mesh.positions).enumerate() {
+        for (vertex, &position) in vertices.iter_mut().zip(mesh.positions) {
             *vertex = self.viewport.project(&self.clip.apply(position));
-            vertex.rgb = surface_colour(self.object, i as u16);
-            if let Some(normals) = gouraud {
-                let (n, p) = lighting.local(normals[i], position);
+            vertex.rgb = self.object.material.colour;
+        }
+        for (vertex, &colour) in vertices.iter_mut().zip(mesh.colours) {
+            vertex.rgb = modulate(colour, self.object.material.colour);
+        }
+        if let (Mode::Gouraud, Normals::Vertex(normals)) = (self.object.mode, mesh.normals) {
+            for (i, vertex) in vertices.iter_mut().enumerate() {
+                let (n, p) = lighting.local(normals[i], mesh.positions[i]);
                 vertex.rgb = lighting.lit(vertex.rgb, n, p);
             }
         }
     }
 
-    /// Cull: triangles that can be seen.
+    /// Cull: triangles that can be seen. Most are dropped here, so this loop holds nothing but the tests.
     fn triangles(
         &self,
         vertices: &[Vertex],
@@ -228,73 +229,125 @@ impl ObjectPass<'_> {
         list: &mut List,
     ) -> Result<(), PrepareError> {
         let mesh = self.object.mesh;
-        let two_sided = self.object.material.two_sided;
-        list.stats.triangles += mesh.triangles.len() as u32;
+        let one_sided = !self.object.material.two_sided;
+        let mut back_facing = 0;
         for (i, &triangle) in mesh.triangles.iter().enumerate() {
-            let corners = triangle.map(|c| vertices.get(c as usize));
-            let [Some(a), Some(b), Some(c)] = corners else {
+            let [a, b, c] = triangle.map(usize::from);
+            let (Some(a), Some(b), Some(c)) = (vertices.get(a), vertices.get(b), vertices.get(c))
+            else {
                 return Err(PrepareError::Index { object: self.index, element: i });
             };
-            if a.flags & b.flags & c.flags & (NEAR | FAR) != 0 {
-                list.stats.outside += 1;
+            if (a.flags | b.flags | c.flags) & CLIP != 0 {
+                self.keep_clipped(i, a.flags & b.flags & c.flags, kind, lighting, list)?;
                 continue;
             }
-            let clipped = (a.flags | b.flags | c.flags) & CLIP != 0;
-            let facing = if clipped {
-                facing_in_clip_space(&triangle.map(|c| self.clip.apply(mesh.positions[c as usize])))
-            } else {
-                facing(signed_area(&[[a.x, a.y], [b.x, b.y], [c.x, c.y]]))
-            };
-            if facing == Facing::Edge || (facing == Facing::Back && !two_sided) {
-                list.stats.back_facing += 1;
+            let area = signed_area(&[[a.x, a.y], [b.x, b.y], [c.x, c.y]]);
+            if area == 0 || (area > 0 && one_sided) {
+                back_facing += 1;
                 continue;
             }
-            let rows = if clipped {
-                self.clipped_rows(triangle)
-            } else {
-                self.rows([a, b, c].map(|v| [v.x, v.y]).into_iter())
-            };
-            let Some((top, bottom)) = rows else {
-                list.stats.outside += 1;
-                continue;
-            };
-            if let Some(uvs) = mesh.uv_triangles.get(i)
-                && uvs.iter().any(|&t| t as usize >= mesh.uvs.len())
-            {
-                return Err(PrepareError::Index { object: self.index, element: i });
+            let low = [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y)];
+            let high = [a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y)];
+            match self.rows(low, high) {
+                Some(rows) => self.keep(i, kind as u8, rows, facing(area), lighting, list)?,
+                None => list.stats.outside += 1,
             }
-            let back = facing == Facing::Back;
-            let mut tag = kind as u8;
-            tag |= if clipped { CLIPPED } else { 0 } | if back { BACK } else { 0 };
-            list.stats.clipped += clipped as u32;
-            let rgb =
-                if kind == Kind::Triangle { self.face_colour(i, back, lighting) } else { [0; 3] };
-            let object = self.index as u16;
-            list.push(Primitive { index: i as u32, top, bottom, object, rgb, tag });
         }
+        list.stats.triangles += mesh.triangles.len() as u32;
+        list.stats.back_facing += back_facing;
         Ok(())
     }
 
-    /// The colour of a triangle that is lit as a whole.
+    /// The same tests for a triangle that the clip stage must cut; `all` are the flags that its corners share.
+    #[inline(never)]
+    fn keep_clipped(
+        &self,
+        index: usize,
+        all: u8,
+        kind: Kind,
+        lighting: &Lighting,
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
+        let mesh = self.object.mesh;
+        let triangle = mesh.triangles[index];
+        if all & (NEAR | FAR) != 0 {
+            list.stats.outside += 1;
+            return Ok(());
+        }
+        let corners = triangle.map(|c| self.clip.apply(mesh.positions[c as usize]));
+        let facing = facing_in_clip_space(&corners);
+        if facing == Facing::Edge || (facing == Facing::Back && !self.object.material.two_sided) {
+            list.stats.back_facing += 1;
+            return Ok(());
+        }
+        let Some(rows) = self.clipped_rows(triangle) else {
+            list.stats.outside += 1;
+            return Ok(());
+        };
+        list.stats.clipped += 1;
+        self.keep(index, kind as u8 | CLIPPED, rows, facing, lighting, list)
+    }
+
+    /// Lists a triangle, lit if it is lit as a whole.
+    #[inline(never)]
+    fn keep(
+        &self,
+        index: usize,
+        tag: u8,
+        (top, bottom): (i16, i16),
+        facing: Facing,
+        lighting: &Lighting,
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
+        let mesh = self.object.mesh;
+        if let Some(uvs) = mesh.uv_triangles.get(index)
+            && uvs.iter().any(|&t| t as usize >= mesh.uvs.len())
+        {
+            return Err(PrepareError::Index { object: self.index, element: index });
+        }
+        let back = facing == Facing::Back;
+        let rgb = match (self.object.mode, mesh.normals) {
+            (Mode::Hidden | Mode::Phong, _) | (Mode::Gouraud, Normals::Vertex(_)) => [0; 3],
+            _ => self.face_colour(index, back, lighting),
+        };
+        let tag = tag | if back { BACK } else { 0 };
+        list.push(Primitive {
+            index: index as u32,
+            top,
+            bottom,
+            object: self.index as u16,
+            rgb,
+            tag,
+        });
+        Ok(())
+    }
+
+    /// The colour of a triangle that is lit as a whole: the mean of its corners' colours, lit at their centre.
+    #[inline]
     fn face_colour(&self, index: usize, back: bool, lighting: &Lighting) -> [u8; 3] {
         let mesh = self.object.mesh;
-        let normal = match (self.object.mode, mesh.normals) {
-            (Mode::Phong, _) | (Mode::Gouraud, Normals::Vertex(_)) => return [0; 3],
-            (_, Normals::Face(normals)) => normals[index],
-            _ => geometric_normal(mesh, mesh.triangles[index]),
+        let triangle = mesh.triangles[index];
+        let normal = match mesh.normals {
+            Normals::Face(normals) => normals[index],
+            _ => geometric_normal(mesh, triangle),
         };
         let normal = if back { normal.map(|v| v.saturating_neg()) } else { normal };
-        let triangle = mesh.triangles[index];
-        let corners = triangle.map(|c| mesh.positions[c as usize]);
-        let centre = [0, 1, 2].map(|k| {
-            let sum: i32 = corners.iter().map(|c| c[k] as i32).sum();
-            sum.div_euclid(3) as i16
-        });
-        let colours = triangle.map(|c| surface_colour(self.object, c));
-        let colour = [0, 1, 2].map(|k| {
-            let sum: u32 = colours.iter().map(|c| c[k] as u32).sum();
-            ((sum + 1) / 3) as u8
-        });
+        let mut colour = self.object.material.colour;
+        if !mesh.colours.is_empty() {
+            let colours = triangle.map(|c| surface_colour(self.object, c));
+            colour = [0, 1, 2].map(|k| {
+                let sum: u32 = colours.iter().map(|c| c[k] as u32).sum();
+                ((sum + 1) / 3) as u8
+            });
+        }
+        let mut centre = [0; 3];
+        if lighting.needs_position() {
+            let corners = triangle.map(|c| mesh.positions[c as usize]);
+            centre = [0, 1, 2].map(|k| {
+                let sum: i32 = corners.iter().map(|c| c[k] as i32).sum();
+                sum.div_euclid(3) as i16
+            });
+        }
         let (n, p) = lighting.local(normal, centre);
         lighting.lit(colour, n, p)
     }
@@ -356,17 +409,18 @@ impl ObjectPass<'_> {
         if corners.is_empty() {
             return None;
         }
-        self.rows(corners.iter().map(|c| self.viewport.project(&c.clip)).map(|v| [v.x, v.y]))
+        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
+        for corner in corners {
+            let v = self.viewport.project(&corner.clip);
+            low = [low[0].min(v.x), low[1].min(v.y)];
+            high = [high[0].max(v.x), high[1].max(v.y)];
+        }
+        self.rows(low, high)
     }
 
-    /// Rows of the frame with pixel centres in the box of some points; `None` when the box holds no centre.
-    #[inline]
-    fn rows(&self, points: impl Iterator<Item = [i32; 2]>) -> Option<(i16, i16)> {
-        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
-        for p in points {
-            low = [low[0].min(p[0]), low[1].min(p[1])];
-            high = [high[0].max(p[0]), high[1].max(p[1])];
-        }
+    /// Rows of the frame with pixel centres in a box (Q28.4); `None` when the box holds no centre.
+    #[inline(always)]
+    fn rows(&self, low: [i32; 2], high: [i32; 2]) -> Option<(i16, i16)> {
         let (width, height) = (self.settings.width as i32, self.settings.height as i32);
         let (x0, x1) = (first_pixel(low[0]).max(0), first_pixel(high[0]).min(width));
         let (y0, y1) = (first_pixel(low[1]).max(0), first_pixel(high[1]).min(height));

@@ -24,7 +24,7 @@
 
 mod perspective;
 
-pub use perspective::{TextureSetup, integer_q, reciprocal};
+pub use perspective::{General, Repeat565, Sampler, TextureSetup, integer_q, reciprocal};
 
 use crate::output::widen565;
 

@@ -3,8 +3,9 @@
 //! Setup takes whole repeats off the texture coordinates, so that they are small and not negative, multiplies them by the
 //! corners' 1/w and scales each of the two products by a power of two to fill 31 bits (block floating point).
 
-use super::{MAX_LEVELS, SUBTEXEL_BITS, Texture, Wrap};
+use super::{Filter, MAX_LEVELS, SUBTEXEL_BITS, Texels, Texture, Wrap};
 use crate::interpolate::Plane;
+use crate::output::widen565;
 use crate::setup::Triangle;
 
 /// A triangle's texture coordinates, ready for every pixel.
@@ -77,27 +78,80 @@ impl<'a> TextureSetup<'a> {
         setup
     }
 
-    /// Where pixel (x, y) lies in the texture, 1/4096 texel of level 0, and its mip level, for its 1/w `q` and the
-    /// reciprocal `r` of that.
+    /// Where a pixel lies in the texture, 1/4096 texel of level 0: from the values of its planes and the reciprocal of its
+    /// 1/w.
     #[inline(always)]
-    pub fn locate(&self, x: i32, y: i32, q: u32, r: u64) -> ([i64; 2], u8) {
-        let st = [0, 1].map(|i| {
-            let product = (self.st[i].at(x, y) as u64).wrapping_mul(r);
+    pub fn locate(&self, st: [u32; 2], r: u64) -> [i64; 2] {
+        [0, 1].map(|i| {
+            let product = (st[i] as u64).wrapping_mul(r);
             let sub = product.wrapping_add(1 << (self.shift[i] - 1)) >> self.shift[i];
             sub as i64 + ((self.base[i] as i64) << SUBTEXEL_BITS)
-        });
-        let mut level = 0;
-        if self.texture.levels > 1 {
-            level = self.thresholds.iter().take_while(|&&threshold| q < threshold).count() as u8;
-        }
-        (st, level)
+        })
     }
 
-    /// The texel of pixel (x, y).
+    /// The mip level for a pixel whose 1/w is `q`.
     #[inline(always)]
-    pub fn at(&self, x: i32, y: i32, q: u32, r: u64) -> [u8; 3] {
-        let ([s, t], level) = self.locate(x, y, q, r);
-        self.texture.sample(s, t, level)
+    pub fn level(&self, q: u32) -> u8 {
+        if self.texture.levels == 1 {
+            return 0;
+        }
+        self.thresholds.iter().take_while(|&&threshold| q < threshold).count() as u8
+    }
+}
+
+/// A way to fetch texels: the general one, or one that knows more about its texture and gives the same.
+pub trait Sampler {
+    /// The texel of a pixel from the values of its s/w and t/w planes, its 1/w and the reciprocal of that.
+    fn texel(&self, setup: &TextureSetup, st: [u32; 2], q: u32, r: u64) -> [u8; 3];
+}
+
+/// Any texture.
+#[derive(Clone, Copy, Debug)]
+pub struct General;
+
+impl Sampler for General {
+    #[inline]
+    fn texel(&self, setup: &TextureSetup, st: [u32; 2], q: u32, r: u64) -> [u8; 3] {
+        let [s, t] = setup.locate(st, r);
+        setup.texture.sample(s, t, setup.level(q))
+    }
+}
+
+/// Nearest texels of an RGB565 texture that repeats, one level, sides powers of two: masks instead of divisions.
+#[derive(Clone, Copy, Debug)]
+pub struct Repeat565<'a> {
+    texels: &'a [u16],
+    mask: [u64; 2],
+    log2_width: u32,
+}
+
+impl<'a> Repeat565<'a> {
+    /// `None` when the texture is not of this kind.
+    pub fn new(texture: &Texture<'a>) -> Option<Self> {
+        let Texels::Rgb565(texels) = texture.texels else { return None };
+        let plain = texture.filter == Filter::Nearest
+            && texture.levels == 1
+            && texture.wrap == [Wrap::Repeat; 2]
+            && texture.width.is_power_of_two()
+            && texture.height.is_power_of_two();
+        plain.then(|| Repeat565 {
+            texels,
+            mask: [texture.width, texture.height].map(|n| n as u64 - 1),
+            log2_width: texture.width.trailing_zeros(),
+        })
+    }
+}
+
+impl Sampler for Repeat565<'_> {
+    #[inline(always)]
+    fn texel(&self, setup: &TextureSetup, st: [u32; 2], _q: u32, r: u64) -> [u8; 3] {
+        let [x, y] = [0, 1].map(|i| {
+            let shift = setup.shift[i];
+            let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift - 1));
+            (product >> (shift + SUBTEXEL_BITS)) & self.mask[i]
+        });
+        let index = (y << self.log2_width | x) as usize;
+        self.texels.get(index).map_or([0; 3], |&p| widen565(p))
     }
 }
 
@@ -134,7 +188,6 @@ fn cube_root(n: u128) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Filter, Texels};
     use super::*;
 
     #[test]
@@ -193,6 +246,26 @@ mod tests {
         (a, area)
     }
 
+    /// The faster sampler is the general one.
+    #[test]
+    fn samplers_agree() {
+        let texels: [u16; 64 * 32] = core::array::from_fn(|i| (i * 40503) as u16);
+        let texture = Texture::new(64, 32, Texels::Rgb565(&texels)).unwrap();
+        let fast = Repeat565::new(&texture).unwrap();
+        for case in cases() {
+            let Some(t) = Triangle::new(case.v) else { continue };
+            let setup = TextureSetup::new(&t, &texture, case.uv, q_of(case.w));
+            let mut value = 1u32;
+            for i in 0..200u32 {
+                value = value.wrapping_mul(1664525).wrapping_add(1013904223);
+                let (st, q) = ([value >> 1, (value ^ i << 9) >> 1], (value >> 9).max(1));
+                let r = reciprocal(q);
+                assert_eq!(fast.texel(&setup, st, q, r), General.texel(&setup, st, q, r));
+            }
+        }
+        assert!(Repeat565::new(&Texture { width: 63, ..texture }).is_none());
+    }
+
     #[test]
     fn coordinates_and_levels_match_real_numbers() {
         let texels = [[0u8; 3]; 256 * 128 * 4 / 3 + 2];
@@ -207,7 +280,8 @@ mod tests {
             for y in (t.min[1]..t.max[1]).step_by(5) {
                 for x in (t.min[0]..t.max[0]).step_by(5).filter(|&x| t.covers(x, y)) {
                     let q = integer_q(q_plane.at(x, y));
-                    let ([s, _], level) = setup.locate(x, y, q, reciprocal(q));
+                    let st = [0, 1].map(|i| setup.st[i].at(x, y));
+                    let ([s, _], level) = (setup.locate(st, reciprocal(q)), setup.level(q));
                     let (st, area) = exact(&case, [256.0, 128.0], x as f64, y as f64);
                     let got = s as f64 / 4096.0;
                     // Whole repeats are dropped for `Repeat`.
