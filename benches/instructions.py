@@ -4,8 +4,9 @@
 Builds `count` for the generic target (no RUSTFLAGS), runs each case in valgrind with two numbers of frames and
 divides the difference: loading and preparing data cancel out, and the count doesn't depend on the machine's load.
 Needs valgrind. With --hot CASE: the functions and lines in which a case spends its instructions.
+With --peers: the crates of the package registry that draw the same, instead of the tables.
 
-    python3 benches/instructions.py [--only TEXT] [--jobs N] [--commit NAME] [--hot CASE]
+    python3 benches/instructions.py [--only TEXT] [--jobs N] [--commit NAME] [--hot CASE] [--peers]
 """
 
 import argparse
@@ -41,11 +42,13 @@ LINE_KINDS = {
 }
 
 
-def build():
-    """The path of `count`, freshly built for the generic target."""
+def build(peers):
+    """The path of `count`, freshly built for the generic target, with or without the peers."""
     env = {k: v for k, v in os.environ.items() if k not in ("RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS")}
     manifest = ["--manifest-path", str(HERE / "Cargo.toml")]
-    subprocess.run(["cargo", "build", "--quiet", "--release", "--bin", "count", *manifest], check=True, env=env)
+    command = ["cargo", "build", "--quiet", "--release", "--bin", "count", *manifest]
+    features = ["--features", "peers"] if peers else []
+    subprocess.run([*command, *features], check=True, env=env)
     command = ["cargo", "metadata", "--format-version", "1", "--no-deps", *manifest]
     metadata = json.loads(subprocess.run(command, check=True, env=env, capture_output=True).stdout)
     return pathlib.Path(metadata["target_directory"]) / "release" / "count"
@@ -77,9 +80,21 @@ def hot(count, case):
         out = pathlib.Path(folder) / "out"
         run = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", "--toggle-collect=*Memory*draw*"]
         subprocess.run([*run, count, case, "3"], check=True, capture_output=True)
-        for options in (["--inclusive=yes"], ["--inclusive=no"], ["--inclusive=no", "--auto=yes", "--context=0"]):
-            print(f"\n## callgrind_annotate {' '.join(options)}\n", flush=True)
-            subprocess.run(["callgrind_annotate", *options, out])
+        for title, options in (("Functions, inclusive", ["--inclusive=yes"]), ("Functions, self", ["--inclusive=no"])):
+            print(f"\n{title}:\n")
+            text = subprocess.run(["callgrind_annotate", "--auto=no", *options, out], check=True, capture_output=True)
+            rows = [r for r in text.stdout.decode().splitlines() if re.match(r"\s*[\d,]+ \(", r)]
+            print("\n".join(rows[:40]))
+        print("\nLines, self:\n")
+        text = subprocess.run(["callgrind_annotate", "--auto=yes", "--context=0", out], check=True, capture_output=True)
+        name, rows = "", []
+        for row in text.stdout.decode().splitlines():
+            if row.startswith("-- Auto-annotated source:"):
+                name = row.rsplit("/", 1)[-1]
+            elif (found := re.match(r"\s*([\d,]+) \([ \d.]+%\)\s(.*)", row)) and name and "=>" not in row:
+                rows.append((int(found[1].replace(",", "")), name, found[2].strip()))
+        for count, name, code in sorted(rows, reverse=True)[:40]:
+            print(f"{count:12,}  {name:16} {code}")
 
 
 def table(head, rows):
@@ -117,10 +132,15 @@ def main():
     parser.add_argument("--jobs", type=int, default=2, help="cases at once")
     parser.add_argument("--commit", help="the name of what is measured, where there is no git")
     parser.add_argument("--hot", metavar="CASE", help="where a case spends its instructions")
+    parser.add_argument("--peers", action="store_true", help="scanout against crates of the package registry")
     options = parser.parse_args()
-    count = build()
+    count = build(options.peers)
     if options.hot:
         hot(count, options.hot)
+        return
+    if options.peers:
+        show_origin(options.commit)
+        show_peers(count, options.jobs)
         return
     cases = [":".join(case) for case in frame_cases()]
     lines = [f"lines:{length}:{kind}" for length in TINYGL for kind in LINE_KINDS]
@@ -189,6 +209,24 @@ def show_lines(count, cases, counts):
     if rows:
         print("Instructions a line (averages over 1,000 random lines):\n")
         table(["lines", "pixels", "instructions", "TinyGL", "ratio", "target"], rows)
+
+
+def show_peers(count, jobs):
+    """The table of peers: a frame or 1,000 lines, theirs and ours."""
+    spheres = [f"{n}:{look}:{size}" for n, size in (("400", SMALL), ("5000", SMALL), ("70000", LARGE)) for look in ("flat", "gouraud")]
+    pairs = [("embedded-3dgfx", case) for case in spheres]
+    pairs += [(peer, case) for peer in ("euc", "retrofire") for case in spheres if "gouraud" in case]
+    pairs += [(peer, f"lines:{length}") for peer in ("embedded-graphics", "tiny-skia") for length in TINYGL]
+    ours = [f"{case}:fill" if case.startswith("lines") else case for _, case in pairs]
+    work = sorted({*ours, *(f"peer:{peer}:{case}" for peer, case in pairs)})
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        counts = dict(zip(work, pool.map(lambda case: per_frame(count, case), work)))
+    rows = []
+    for (peer, case), own in zip(pairs, ours):
+        mine, theirs = counts[own], counts[f"peer:{peer}:{case}"]
+        rows.append([case.replace(":", " "), peer, millions(mine), millions(theirs), f"{mine / theirs:.2f}"])
+    print("Millions of instructions a frame, or for 1,000 lines:\n")
+    table(["case", "peer", "scanout", "peer", "ratio"], rows)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,9 @@
 //! | `depth` | one value, depth interpolated and tested |
 //! | `full` | colour and depth: `walk` |
 //!
+//! With the feature `peers` the prefix `peer:NAME:` lets a peer draw the sphere (`embedded-3dgfx`, `euc`, `retrofire`)
+//! or the lines (`embedded-graphics`, `tiny-skia`).
+//!
 //! `count CASE 0` prints, separated by tabs, what the frame consists of: triangles, vertices, primitives kept, bytes
 //! of the store, bytes of colour and depth, frame hash; for lines their number and mean length in pixels.
 
@@ -45,6 +48,10 @@ fn main() -> ExitCode {
 fn run(case: &str, frames: u32) -> Result<(), String> {
     if let Some(name) = case.strip_prefix("lines:") {
         return draw_lines(name, frames);
+    }
+    #[cfg(feature = "peers")]
+    if let Some(name) = case.strip_prefix("peer:") {
+        return draw_peer(name, frames);
     }
     let (case, prepare_only) = match case.strip_prefix("prepare:") {
         Some(rest) => (rest, true),
@@ -83,13 +90,47 @@ fn run(case: &str, frames: u32) -> Result<(), String> {
     Ok(())
 }
 
+fn line_set(name: &str) -> Result<Vec<Line>, String> {
+    match name {
+        "long" => Ok(lines::long()),
+        "short" => Ok(lines::short()),
+        _ => Err(format!("{name}: lines are long or short")),
+    }
+}
+
+#[cfg(feature = "peers")]
+fn draw_peer(name: &str, frames: u32) -> Result<(), String> {
+    use scanout_benches::peers::{Drawer, Embedded, EmbeddedGraphics, Euc, Retrofire, TinySkia};
+    let (peer, rest) = name.split_once(':').ok_or(format!("{name}: not PEER:CASE"))?;
+    let mut drawer: Box<dyn Drawer> = if let Some(set) = rest.strip_prefix("lines:") {
+        let lines = line_set(set)?;
+        match peer {
+            "embedded-graphics" => Box::new(EmbeddedGraphics::new(lines)),
+            "tiny-skia" => Box::new(TinySkia::new(lines)),
+            _ => return Err(format!("{peer}: draws no lines here")),
+        }
+    } else {
+        let case = Case::parse(rest)?;
+        let triangles =
+            case.source.parse().map_err(|_| format!("{rest}: peers draw spheres only"))?;
+        match (peer, case.look.as_str()) {
+            ("embedded-3dgfx", "flat") => Box::new(Embedded::new(triangles, case.size, false)),
+            ("embedded-3dgfx", "gouraud") => Box::new(Embedded::new(triangles, case.size, true)),
+            ("euc", "gouraud") => Box::new(Euc::new(triangles, case.size)),
+            ("retrofire", "gouraud") => Box::new(Retrofire::new(triangles, case.size)),
+            _ => return Err(format!("{name}: not drawn here")),
+        }
+    };
+    for _ in 0..frames {
+        drawer.draw();
+        black_box(&mut drawer);
+    }
+    Ok(())
+}
+
 fn draw_lines(name: &str, frames: u32) -> Result<(), String> {
     let (set, kind) = name.split_once(':').unwrap_or((name, "fill"));
-    let lines = match set {
-        "long" => lines::long(),
-        "short" => lines::short(),
-        _ => return Err(format!("lines:{name}: long or short")),
-    };
+    let lines = line_set(set)?;
     let draw = match kind {
         "fill" => fill,
         "flat" => flat,
