@@ -81,7 +81,8 @@ impl Report {
         let expected = judge.colour_depth(triangle);
         let got = renderer.colour_depth(triangle);
         let (a, b) = (judge.rounding(triangle), renderer.rounding(triangle));
-        let (colour, depth) = (a.colour.max(b.colour) <= STEADY, a.depth.max(b.depth) <= STEADY);
+        let colour = Self::is_steady(a.colour.max(b.colour));
+        let depth = Self::is_steady(a.depth.max(b.depth));
         self.triangles += 1;
         self.covered(&expected, &got, |report, expected, got| {
             let errors = expected.colour.iter().zip(got.colour).map(|(a, b)| a.abs_diff(b));
@@ -108,12 +109,8 @@ impl Report {
         self.covered(&expected, &got, |_, _, _| ());
         for ((expected, got), exact) in expected.pixels.iter().zip(&got.pixels).zip(&exact.pixels) {
             let (Some(expected), Some(got), Some(exact)) = (expected, got, exact) else { continue };
-            if roundings.iter().any(|rounding| at_border(exact, texture, rounding)) {
-                self.texel_unjudged += 1;
-            } else {
-                self.texel_judged += 1;
-                self.texel_differs += usize::from(expected != got);
-            }
+            let unsure = roundings.iter().any(|rounding| at_border(exact, texture, rounding));
+            self.texel_verdict(expected != got, unsure);
         }
     }
 
@@ -134,13 +131,22 @@ impl Report {
         }
     }
 
-    fn fragment(&mut self, exact: Exact, got: Fragment, rounding: &Rounding) {
+    pub(crate) fn fragment(&mut self, exact: Exact, got: Fragment, rounding: &Rounding) {
         let errors = exact.colour.iter().zip(got.colour).map(|(a, b)| a.minus(b.into()).abs());
-        self.colour(errors.fold(0.0, f64::max), rounding.colour <= STEADY);
-        self.depth(depth_error(&exact, got.depth), rounding.depth <= STEADY);
+        self.colour(errors.fold(0.0, f64::max), Self::is_steady(rounding.colour));
+        self.depth_fragment(exact, got, rounding);
     }
 
-    fn colour(&mut self, error: f64, steady: bool) {
+    pub(crate) fn depth_fragment(&mut self, exact: Exact, got: Fragment, rounding: &Rounding) {
+        self.depth(depth_error(&exact, got.depth), Self::is_steady(rounding.depth));
+    }
+
+    /// True when a rounding bound is small enough to judge with.
+    pub(crate) fn is_steady(rounding: f64) -> bool {
+        rounding <= STEADY
+    }
+
+    pub(crate) fn colour(&mut self, error: f64, steady: bool) {
         if steady {
             self.colour_judged += 1;
             self.colour_error = self.colour_error.max(error);
@@ -149,7 +155,7 @@ impl Report {
         }
     }
 
-    fn depth(&mut self, error: f64, steady: bool) {
+    pub(crate) fn depth(&mut self, error: f64, steady: bool) {
         if steady {
             self.depth_judged += 1;
             self.depth_error = self.depth_error.max(error);
@@ -158,13 +164,29 @@ impl Report {
         }
     }
 
-    fn texel(&mut self, exact: Exact, got: Texel, texture: &Texture, rounding: &Rounding) {
-        if at_border(&exact, texture, rounding) {
+    pub(crate) fn texel(
+        &mut self,
+        exact: Exact,
+        got: Texel,
+        texture: &Texture,
+        rounding: &Rounding,
+    ) {
+        let (right, _) = reference::texel(&exact, texture);
+        self.texel_verdict(got != right, at_border(&exact, texture, rounding));
+    }
+
+    /// A pixel whose triangle is not sure: neither its colour nor, with a texture, its texel is judged.
+    pub(crate) fn undecided(&mut self, textured: bool) {
+        let count = if textured { &mut self.texel_unjudged } else { &mut self.colour_unjudged };
+        *count += 1;
+    }
+
+    pub(crate) fn texel_verdict(&mut self, differs: bool, at_border: bool) {
+        if at_border {
             self.texel_unjudged += 1;
         } else {
             self.texel_judged += 1;
-            let (right, _) = reference::texel(&exact, texture);
-            self.texel_differs += usize::from(got != right);
+            self.texel_differs += usize::from(differs);
         }
     }
 
@@ -218,7 +240,7 @@ fn depth_error(exact: &Exact, depth: u32) -> f64 {
 }
 
 /// True where the rounding bound reaches a border between two texels.
-fn at_border(exact: &Exact, texture: &Texture, rounding: &Rounding) -> bool {
+pub(crate) fn at_border(exact: &Exact, texture: &Texture, rounding: &Rounding) -> bool {
     let (_, to_border) = reference::texel(exact, texture);
     let bounds = texel_rounding(exact, texture, rounding);
     to_border[0] <= bounds[0] || to_border[1] <= bounds[1]
@@ -241,11 +263,13 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { triangles, pixels, coverage_differs, .. } = self;
         write!(f, "{triangles} triangles, {pixels} pixels; {coverage_differs} differ in coverage")?;
-        if self.colour_judged + self.depth_judged > 0 {
+        if self.colour_judged > 0 {
             let (error, unjudged) = (self.colour_error, self.colour_unjudged);
             write!(f, ", colour off by at most {error:.4}/255 ({unjudged} not judged)")?;
+        }
+        if self.depth_judged > 0 {
             let (error, unjudged) = (self.depth_error, self.depth_unjudged);
-            write!(f, ", depth by {error:.4}/65535 ({unjudged} not judged)")?;
+            write!(f, ", depth off by at most {error:.4}/65535 ({unjudged} not judged)")?;
         }
         if self.texel_judged > 0 {
             write!(f, ", {} in texel ({} not judged)", self.texel_differs, self.texel_unjudged)?;

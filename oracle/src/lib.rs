@@ -5,11 +5,11 @@
 //!
 //! | renderer | arithmetic | written by |
 //! |---|---|---|
-//! | [`reference`] | exact rationals in `i128`, the definition itself | this crate, without a look at `scanout` |
+//! | [`mod@reference`] | exact rationals in `i128`, the definition itself | this crate, without a look at `scanout` |
 //! | [`llvmpipe::Llvmpipe`] | floats and 8 sub-pixel bits | the Mesa project |
 //! | [`pipeline::Pipeline`] | the integers that ship | `scanout` |
 //!
-//! [`judge`] compares an answer with the exact one and reports how far it is off. Lines have a judge of their own: Pillow,
+//! [`judge`] compares an answer with the exact one and reports how far it is off; [`model`] does so with whole frames. Lines have a judge of their own: Pillow,
 //! called through `lines.py` beside this crate (see [`lines`]).
 //!
 //! # Conventions
@@ -22,6 +22,7 @@
 pub mod judge;
 pub mod lines;
 pub mod llvmpipe;
+pub mod model;
 pub mod pipeline;
 pub mod random;
 pub mod reference;

@@ -3,7 +3,7 @@
 
 use scanout::interpolate::channel;
 use scanout::raster::triangle::{Run, spans};
-use scanout::texture::{TextureSetup, integer_q, reciprocal};
+use scanout::texture::{General, Sampler, TextureSetup, integer_q, reciprocal};
 use scanout::{depth, setup, texture};
 
 use crate::triangle::{
@@ -127,7 +127,8 @@ impl Renderer for Pipeline {
         let plane = prepared.plane(q.map(|q| q << 8));
         self.draw(triangle, |_, x, y| {
             let q = integer_q(plane.at(x, y));
-            let colour = setup.at(x, y, q, reciprocal(q));
+            let st = setup.st.map(|plane| plane.at(x, y));
+            let colour = General.texel(&setup, st, q, reciprocal(q));
             texture.texel(colour).expect("a colour of the texture")
         })
     }

@@ -76,6 +76,13 @@ fn clockwise(triangle: &Triangle) -> Option<[Vertex; 3]> {
     }
 }
 
+/// True for triangles whose corners turn counter-clockwise on the screen: front faces.
+#[must_use]
+pub fn is_counter_clockwise(triangle: &Triangle) -> bool {
+    let [a, b, c] = &triangle.0;
+    edge(a, b, (c.x.into(), c.y.into())) < 0
+}
+
 /// Calls `visit` with the weights of the corners `[a, b, c]` (in the given clockwise order) at each covered pixel.
 fn for_each_pixel(
     corners: &[Vertex; 3],
@@ -115,7 +122,13 @@ pub fn coverage(triangle: &Triangle, size: (u32, u32)) -> Coverage {
 #[must_use]
 pub fn exact(triangle: &Triangle, size: (u32, u32)) -> Picture<Exact> {
     let mut picture = Picture::empty(size.0, size.1);
-    let Some(corners) = clockwise(triangle) else { return picture };
+    for_each_exact(triangle, size, |i, exact| picture.pixels[i] = Some(exact));
+    picture
+}
+
+/// Calls `visit` with the index (row by row) and the exact attributes of each covered pixel.
+pub fn for_each_exact(triangle: &Triangle, size: (u32, u32), mut visit: impl FnMut(usize, Exact)) {
+    let Some(corners) = clockwise(triangle) else { return };
     for_each_pixel(&corners, size, |i, weights| {
         let area: i128 = weights.iter().sum();
         let sum = |value: &dyn Fn(&Vertex) -> i128| -> i128 {
@@ -123,17 +136,15 @@ pub fn exact(triangle: &Triangle, size: (u32, u32)) -> Picture<Exact> {
         };
         let plane = |value: &dyn Fn(&Vertex) -> i128| Ratio { num: sum(value), den: area };
         let q = plane(&|v| v.q.into());
-        picture.pixels[i] = Some(Exact {
+        let uvq = |n: usize| sum(&|v| i128::from(v.uv[n]) * i128::from(v.q));
+        let exact = Exact {
             colour: [0, 1, 2].map(|n| plane(&|v| v.colour[n].into())),
             depth: plane(&|v| v.z.into()),
-            uv: [0, 1].map(|n| Ratio {
-                num: sum(&|v| i128::from(v.uv[n]) * i128::from(v.q)),
-                den: q.num,
-            }),
+            uv: [0, 1].map(|n| Ratio { num: uvq(n), den: q.num }),
             q,
-        });
+        };
+        visit(i, exact);
     });
-    picture
 }
 
 /// Index of the nearest texel along one direction of `size` texels, and how far (in texels, at most 0.5) the coordinate is

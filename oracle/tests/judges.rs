@@ -4,6 +4,7 @@ use libtest_mimic::{Arguments, Failed, Trial};
 use scanout_oracle::judge::Report;
 use scanout_oracle::lines::{self, Line, Verdict};
 use scanout_oracle::llvmpipe::{Llvmpipe, LoadError};
+use scanout_oracle::model;
 use scanout_oracle::pipeline::Pipeline;
 use scanout_oracle::random::{Kind, Random, triangle, vertex};
 use scanout_oracle::{Renderer, Texture, Triangle, Wrap, reference};
@@ -210,6 +211,35 @@ fn llvmpipe_shows_the_nearer_triangle() -> Result<(), Failed> {
     Ok(())
 }
 
+/// The shipped models, lit and textured, from all around: frames of `scanout` against the exact picture and against llvmpipe.
+fn models_equal(llvmpipe: bool) -> Result<(), Failed> {
+    const SIZE: (u32, u32) = (256, 256);
+    let mut judge = llvmpipe.then(|| Llvmpipe::new(SIZE.0, SIZE.1).expect("a judge"));
+    let texture = Texture { width: 64, height: 64, wrap: Wrap::Repeat };
+    let names = model::shipped()?;
+    assert!(names.len() >= 4, "only {names:?}");
+    for path in &names {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let model = model::load(path)?;
+        let looks: &[Option<Texture>] =
+            if model::has_texture_coordinates(&model) { &[None, Some(texture)] } else { &[None] };
+        for &texture in looks {
+            let mut total = [Report::default(); 2];
+            for turn in (0..64).step_by(9) {
+                let reports = model::shoot(&model, turn, texture, SIZE).judge(judge.as_mut());
+                total.iter_mut().zip(&reports).for_each(|(sum, report)| sum.add(report));
+            }
+            let report = total[usize::from(llvmpipe)];
+            let look = if texture.is_some() { "textured" } else { "lit" };
+            println!("    {name}, {look}: {report}");
+            if !report.passes() || !report.is_conclusive() {
+                return Err(format!("{name}, {look}: {report}").into());
+            }
+        }
+    }
+    Ok(())
+}
+
 /// All lines in both directions.
 fn all_lines() -> Vec<Line> {
     let mut ends = lines::octants();
@@ -283,6 +313,8 @@ fn main() {
         exact("scanout_equals_the_exact_texels", scanout_equals_the_exact_texels),
         llvmpipe("scanout_equals_llvmpipe", scanout_equals_llvmpipe),
         llvmpipe("scanout_equals_llvmpipe_in_texels", scanout_equals_llvmpipe_in_texels),
+        exact("models_equal_the_exact_picture", || models_equal(false)),
+        llvmpipe("models_equal_llvmpipe", || models_equal(true)),
         exact("lines_equal_the_closed_form", lines_equal_the_closed_form),
         pillow("lines_equal_pillow", lines_equal_pillow),
     ];
