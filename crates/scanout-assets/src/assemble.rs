@@ -14,7 +14,10 @@ const RANGE: f64 = 32760.0;
 /// Entries that 16-bit indices reach.
 const INDEXED: usize = 65_536;
 
+/// Two positions, the lesser first.
 type Edge = ([i16; 3], [i16; 3]);
+/// Position, normal and colour: what makes a vertex.
+type VertexKey = ([i16; 3], [i16; 3], [u8; 3]);
 
 /// Makes the model. Positions keep the file's axes and winding.
 pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Model, LoadError> {
@@ -124,7 +127,7 @@ struct Builder {
     mesh: MeshBuf,
     vertex_normals: Vec<[i16; 3]>,
     face_normals: Vec<[i16; 3]>,
-    vertices: HashMap<([i16; 3], [i16; 3], [u8; 3]), u16>,
+    vertices: HashMap<VertexKey, u16>,
     uvs: HashMap<[i32; 2], u16>,
     /// The first vertex at a place; edges refer to it.
     places: HashMap<[i16; 3], u16>,

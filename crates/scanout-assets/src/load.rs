@@ -281,7 +281,9 @@ fn gunzip(bytes: &[u8], name: &str, limit: u64) -> Result<Vec<u8>, LoadError> {
         .map_err(|error| {
             LoadError::malformed(name, At::File, format!("gzip: {error}; copy the file again"))
         })?
-        .ok_or_else(|| LoadError::too_large(name, format!("unpacks to more than {limit} bytes")))
+        .ok_or_else(|| {
+            LoadError::too_large(name, format!("unpacks to more than {limit} bytes; simplify it"))
+        })
 }
 
 #[cfg(test)]

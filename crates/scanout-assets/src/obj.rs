@@ -121,7 +121,7 @@ impl fmt::Display for Error {
         let word = self.word[..usize::from(self.length)].escape_ascii();
         write!(f, "line {}: ", self.line)?;
         match self.kind {
-            ErrorKind::NotANumber => write!(f, "'{word}' is not a finite number"),
+            ErrorKind::NotANumber => write!(f, "'{word}' is not a finite number; mend the line"),
             ErrorKind::TooFewNumbers => write!(f, "too few numbers; v and vn need 3, vt needs 1"),
             ErrorKind::BadCorner => {
                 write!(f, "'{word}' is not a corner; write v, v/t, v//n or v/t/n")

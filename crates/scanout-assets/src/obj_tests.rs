@@ -90,8 +90,8 @@ fn errors_name_line_and_word() {
     let long = format!("f {}", "1".repeat(WORD + 1));
     let long_keyword = "x".repeat(WORD + 9);
     for (text, message) in [
-        ("v 0 0 0\nv 1 nan 2", "line 2: 'nan' is not a finite number"),
-        ("v 0 inf 0", "line 1: 'inf' is not a finite number"),
+        ("v 0 0 0\nv 1 nan 2", "line 2: 'nan' is not a finite number; mend the line"),
+        ("v 0 inf 0", "line 1: 'inf' is not a finite number; mend the line"),
         ("v 0 0", "line 1: too few numbers; v and vn need 3, vt needs 1"),
         ("vt", "line 1: too few numbers; v and vn need 3, vt needs 1"),
         (

@@ -56,10 +56,12 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = match self.kind {
             ErrorKind::Magic => "not a PPM or PGM; it must begin with P6, P5, P3 or P2",
-            ErrorKind::NotANumber => "not a decimal number",
-            ErrorKind::Size => "width and height must be 1 to 65535",
-            ErrorKind::MaxVal => "the greatest sample value must be 1 to 65535",
-            ErrorKind::Sample => "a sample is greater than the header's greatest value",
+            ErrorKind::NotANumber => "not a decimal number; export it again",
+            ErrorKind::Size => "width and height must be 1 to 65535; export it again",
+            ErrorKind::MaxVal => "the greatest sample value must be 1 to 65535; export it again",
+            ErrorKind::Sample => {
+                "a sample is greater than the header's greatest value; export it again"
+            }
             ErrorKind::Truncated => "the file ends before its last texel; copy it again",
         };
         write!(f, "byte {}: {what}", self.byte)

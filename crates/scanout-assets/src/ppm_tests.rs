@@ -1,7 +1,9 @@
 use super::*;
 
 /// Size and texels.
-fn parse(bytes: &[u8], chunk: usize) -> Result<((u32, u32), Vec<[u8; 3]>), Error> {
+type Picture = ((u32, u32), Vec<[u8; 3]>);
+
+fn parse(bytes: &[u8], chunk: usize) -> Result<Picture, Error> {
     let mut parser = Parser::new();
     let (mut size, mut texels) = ((0, 0), Vec::new());
     let mut sink = |event| match event {
@@ -17,7 +19,7 @@ fn parse(bytes: &[u8], chunk: usize) -> Result<((u32, u32), Vec<[u8; 3]>), Error
 }
 
 /// The same result whatever the chunks.
-fn read(bytes: &[u8]) -> Result<((u32, u32), Vec<[u8; 3]>), Error> {
+fn read(bytes: &[u8]) -> Result<Picture, Error> {
     let whole = parse(bytes, usize::MAX);
     for chunk in [1, 7, 512] {
         assert_eq!(parse(bytes, chunk), whole);

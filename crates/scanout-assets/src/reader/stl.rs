@@ -109,7 +109,7 @@ impl Mesh {
                         let number = words.next().and_then(Number::parse).map(Number::to_f64);
                         *x = match number {
                             Some(number) if usable(&[number]) => number,
-                            _ => return fail("a vertex needs three finite numbers"),
+                            _ => return fail("a vertex needs three finite numbers; mend the line"),
                         };
                     }
                     if !inside {
@@ -124,7 +124,11 @@ impl Mesh {
                     self.raw.check(source.name, source.limits)?;
                 }
                 None | Some(b"solid" | b"endsolid" | b"facet" | b"endloop" | b"endfacet") => {}
-                Some(_) => return fail("not a line of STL (solid, facet, outer loop, vertex)"),
+                Some(_) => {
+                    return fail(
+                        "not a line of STL (solid, facet, outer loop, vertex); is this STL?",
+                    );
+                }
             }
         }
         if inside {

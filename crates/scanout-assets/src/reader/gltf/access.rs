@@ -1,7 +1,7 @@
 //! Accessors: typed, bounds-checked views into the buffers.
 
 use super::schema::{Accessor, Document};
-use crate::error::{At, LoadError};
+use crate::error::LoadError;
 use crate::reader::Source;
 use std::borrow::Cow;
 
@@ -22,7 +22,7 @@ struct Run<'a> {
 
 impl Access<'_> {
     fn fail(&self, what: impl Into<String>) -> LoadError {
-        LoadError::malformed(self.source.name, At::File, what)
+        super::malformed(self.source, what)
     }
 
     /// The bytes of a buffer view.

@@ -70,9 +70,7 @@ pub(super) fn buffers<'a>(
     let mut buffers = Vec::new();
     let mut left = source.limits.file_bytes;
     for (index, buffer) in document.buffers.iter().enumerate() {
-        let fail = |what: &str| {
-            LoadError::malformed(source.name, At::File, format!("buffer {index}: {what}"))
-        };
+        let fail = |what: &str| super::malformed(source, format!("buffer {index}: {what}"));
         let bytes = match &buffer.uri {
             None if index == 0 => Cow::Borrowed(
                 binary.ok_or_else(|| fail("it has no data; keep the .bin beside the file"))?,

@@ -65,7 +65,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn fail(&self, what: impl Into<String>) -> LoadError {
-        LoadError::malformed(self.source.name, At::File, what)
+        malformed(self.source, what)
     }
 
     /// Material 0 is glTF's default; the file's material i is i + 1.
@@ -297,6 +297,15 @@ impl Reader<'_> {
         }
         self.raw.check(self.source.name, self.source.limits)
     }
+}
+
+/// An error of the document; those that only an exporter can mend say so.
+fn malformed(source: &Source<'_>, what: impl Into<String>) -> LoadError {
+    let mut what = what.into();
+    if !what.contains("; ") {
+        what.push_str("; export the file again");
+    }
+    LoadError::malformed(source.name, At::File, what)
 }
 
 /// A linear channel in [0, 1] as an sRGB byte.

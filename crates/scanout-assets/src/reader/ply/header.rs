@@ -102,17 +102,19 @@ pub(super) fn parse<'a>(source: &'a Source<'a>) -> Result<(Header, Values<'a>), 
             }
             ["element", name, count] => {
                 let Ok(count) = count.parse() else {
-                    return fail(format!("'{count}' is not a number of elements"));
+                    return fail(format!("'{count}' is not a number of elements; mend the header"));
                 };
                 header.elements.push(Element { name: name.into(), count, properties: Vec::new() });
             }
             ["property", ref property @ ..] => {
                 let Some(element) = header.elements.last_mut() else {
-                    return fail("a property before the first element".into());
+                    return fail("a property before the first element; mend the header".into());
                 };
                 match parse_property(property) {
                     Some(property) => element.properties.push(property),
-                    None => return fail(format!("'{line}' is no property of PLY 1.0")),
+                    None => {
+                        return fail(format!("'{line}' is no property of PLY 1.0; export again"));
+                    }
                 }
             }
             ["comment", "TextureFile", ..] => {
@@ -121,7 +123,7 @@ pub(super) fn parse<'a>(source: &'a Source<'a>) -> Result<(Header, Values<'a>), 
             }
             ["end_header"] => {
                 let Some(big_endian) = format else {
-                    return fail("the header has no format line".into());
+                    return fail("the header has no format line; export again".into());
                 };
                 check_sizes(&header, source, &source.bytes[begin..], big_endian.is_some())?;
                 let values = Values::new(source.bytes, begin, line_number + 1, big_endian);
@@ -132,7 +134,11 @@ pub(super) fn parse<'a>(source: &'a Source<'a>) -> Result<(Header, Values<'a>), 
             _ => header.unknown += 1,
         }
     }
-    Err(LoadError::malformed(source.name, At::Line(LINES), "the header does not end"))
+    Err(LoadError::malformed(
+        source.name,
+        At::Line(LINES),
+        "the header does not end; is this a PLY file?",
+    ))
 }
 
 fn parse_property(words: &[&str]) -> Option<Property> {
@@ -176,7 +182,7 @@ fn check_sizes(
             return Err(LoadError::malformed(
                 source.name,
                 At::File,
-                format!("'{}' elements have no properties", element.name),
+                format!("'{}' elements have no properties; export again", element.name),
             ));
         }
     }
