@@ -168,7 +168,7 @@ impl Case {
     }
 }
 
-/// A case's data, from which [`Prepared`] borrows.
+/// A case's data, from which a scene borrows.
 #[derive(Clone, Debug)]
 pub struct Data {
     case: Case,

@@ -1,4 +1,4 @@
-//! `time [ROUNDS]`: times of scanout and of its peers, side by side in one run, as ratios.
+//! `time` with an optional number of ROUNDS: times of scanout and of its peers, side by side in one run, as ratios.
 //!
 //! Every contestant of a group draws one frame in turn, ROUNDS times (default 200; fewer for large frames); the median
 //! and the minimum count. Times of different runs or machines say nothing; the ratios within one do.
