@@ -26,7 +26,7 @@ use crate::triangle::{
     Wrap,
 };
 
-/// The file that is looked for by the system's loader.
+/// The file that is looked for by the system's loader, unless the environment variable `SCANOUT_OSMESA` names another.
 const LIBRARY: &str = "libOSMesa.so.8";
 
 /// Why there is no judge.
@@ -69,8 +69,9 @@ impl Llvmpipe {
     /// [`LoadError::Missing`] when the library is not installed, [`LoadError::Unusable`] when it is not llvmpipe or gives no
     /// such context.
     pub fn new(width: u32, height: u32) -> Result<Self, LoadError> {
+        let file = std::env::var_os("SCANOUT_OSMESA").unwrap_or_else(|| LIBRARY.into());
         // SAFETY: loading runs Mesa's initialisers, which are those of any program linked with it.
-        let library = unsafe { libloading::Library::new(LIBRARY) }.map_err(LoadError::Missing)?;
+        let library = unsafe { libloading::Library::new(file) }.map_err(LoadError::Missing)?;
         let gl = Functions::new(library).map_err(|e| LoadError::Unusable(e.to_string()))?;
         // SAFETY: plain values, and a null pointer for "shares nothing".
         let context = unsafe { (gl.create_context)(gl::RGBA, 32, 0, 0, std::ptr::null_mut()) };
