@@ -34,7 +34,6 @@ pub struct Cli {
 
 /// The commands.
 #[derive(Subcommand, Debug)]
-#[expect(clippy::large_enum_variant, reason = "made once, at the start")]
 pub enum Command {
     /// Show what the pipeline does: a window, or a picture in the terminal and files
     Demo(DemoArgs),
@@ -197,7 +196,7 @@ pub struct CameraArgs {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Light")]
 pub struct LightArgs {
-    /// Direction towards a light, or point:X,Y,Z for a lamp; may be repeated [default: from the viewer's upper left]
+    /// Direction towards a light, or point:X,Y,Z for a lamp; may be repeated [default: a strong one at the viewer's upper left, a weak one at the right]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub light: Vec<LightAt>,
     /// Weight of ambient light, 0 - 1 [default: the material's]
@@ -252,9 +251,6 @@ pub struct PictureArgs {
 /// `scanout render`.
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
     /// Where the picture goes: .png, .ppm, .raw, or `-`; without it a terminal shows it
     #[arg(short, long, value_name = "OUT", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
@@ -279,29 +275,29 @@ pub struct RenderArgs {
     /// Where the difference picture goes [default: beside OUT, *.difference.png]
     #[arg(long, value_name = "FILE", requires = "reference", value_hint = ValueHint::FilePath)]
     pub difference: Option<PathBuf>,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 }
 
 /// `scanout view`.
 #[derive(Args, Debug)]
 #[command(after_help = crate::window::KEYS)]
 pub struct ViewArgs {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
     /// Tell the frame rate on standard error too
     #[arg(long)]
     pub stats: bool,
     /// Close after N frames
     #[arg(long, value_name = "N")]
     pub frames: Option<u32>,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 }
 
 /// `scanout turntable`.
 #[derive(Args, Debug)]
 pub struct TurntableArgs {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
     /// .gif, .png (animated), a folder for single pictures, or `-` (GIF)
     #[arg(short, long, value_name = "OUT", value_hint = ValueHint::AnyPath)]
     pub output: PathBuf,
@@ -311,6 +307,9 @@ pub struct TurntableArgs {
     /// Pictures a second, 1 - 100
     #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(1..=100))]
     pub fps: u16,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 }
 
 /// `scanout info`.

@@ -67,7 +67,12 @@ fn ppm(bytes: &[u8]) -> std::result::Result<Picture, String> {
     if most != 255 || wanted.is_none_or(|n| n == 0 || data.len() < n) {
         return Err("PPM cut short or not of 8 bits".into());
     }
-    Ok(Picture { width, height, pixels: data.as_chunks::<3>().0[..width * height].to_vec() })
+    Ok(Picture { width, height, pixels: triples(&data[..3 * width * height]) })
+}
+
+/// R, G, B, R, G, B, ... as pixels.
+pub fn triples(bytes: &[u8]) -> Vec<[u8; 3]> {
+    bytes.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect()
 }
 
 fn png(bytes: &[u8]) -> std::result::Result<Picture, String> {
@@ -79,14 +84,10 @@ fn png(bytes: &[u8]) -> std::result::Result<Picture, String> {
     let info = reader.next_frame(&mut data).map_err(|error| error.to_string())?;
     let data = &data[..info.buffer_size()];
     let pixels = match info.color_type {
-        png::ColorType::Rgb => data.as_chunks::<3>().0.to_vec(),
-        png::ColorType::Rgba => {
-            data.as_chunks::<4>().0.iter().map(|p| [p[0], p[1], p[2]]).collect()
-        }
+        png::ColorType::Rgb => triples(data),
+        png::ColorType::Rgba => data.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect(),
         png::ColorType::Grayscale => data.iter().map(|v| [*v; 3]).collect(),
-        png::ColorType::GrayscaleAlpha => {
-            data.as_chunks::<2>().0.iter().map(|p| [p[0]; 3]).collect()
-        }
+        png::ColorType::GrayscaleAlpha => data.chunks_exact(2).map(|p| [p[0]; 3]).collect(),
         png::ColorType::Indexed => return Err("palette left unexpanded".into()),
     };
     Ok(Picture { width: info.width as usize, height: info.height as usize, pixels })

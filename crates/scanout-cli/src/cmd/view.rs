@@ -58,12 +58,16 @@ pub struct Viewer {
     spins: bool,
     /// Tell the frame rate on standard error.
     pub stats: bool,
+    /// Tell the window's keys when the first picture is there.
+    pub keys_when_shown: bool,
 }
 
 impl Viewer {
     /// A viewer that begins with this shot.
     pub fn new(stage: Stage, shot: Shot, options: Options, name: String) -> Self {
-        Self { stage, start: shot.clone(), shot, options, name, spins: false, stats: false }
+        let start = shot.clone();
+        let (spins, stats, keys_when_shown) = (false, false, false);
+        Self { stage, shot, start, options, name, spins, stats, keys_when_shown }
     }
 
     /// The same, turning by itself until the mouse takes over.
@@ -119,6 +123,9 @@ impl Viewer {
 impl Content for Viewer {
     fn draw(&mut self, width: u16, height: u16, seconds: f64) -> Result<Picture> {
         self.shot.size = (width, height);
+        if std::mem::take(&mut self.keys_when_shown) {
+            narrate!("{}", window::KEYS);
+        }
         if self.spins {
             self.shot.turn = (self.shot.turn + SPIN * seconds.min(0.1)) % 360.0;
         }

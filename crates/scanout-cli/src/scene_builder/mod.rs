@@ -215,13 +215,18 @@ impl Stage {
         }
     }
 
-    /// The lights of the options, or one at the viewer's upper left.
+    /// The lights of the options, or a strong one at the viewer's upper left and a weak one at the right.
     fn lights(&self, view: &View, world: &World) -> Vec<Light> {
         let light = |kind| Light { kind, colour: [255; 3] };
         if self.surface.lights.is_empty() {
             let [right, up, back] = view.basis;
-            let towards = along(along(back.map(|x| x * 0.7), up, 0.6), right, -0.4);
-            return vec![light(LightKind::Directional(direction(towards)))];
+            let from = |x, y, z| {
+                let towards = along(along(back.map(|b| b * z), up, y), right, x);
+                LightKind::Directional(direction(towards))
+            };
+            // A key light, and a weak one from the right so that its shadow side keeps its shape.
+            let fill = Light { kind: from(0.8, 0.0, 0.5), colour: [72; 3] };
+            return vec![light(from(-0.4, 0.6, 0.7)), fill];
         }
         let kind = |at: &LightAt| match *at {
             LightAt::Towards(towards) => LightKind::Directional(direction(towards)),

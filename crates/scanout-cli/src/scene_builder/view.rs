@@ -179,7 +179,7 @@ impl View {
     /// Places the eye so that the ball around the subject's middle just fits, however the model turns.
     pub fn fit_ball(&mut self, aspect: f64) {
         let (fx, fy) = self.focal_factors(aspect);
-        let f = fx.min(fy);
+        let f = fx.max(fy); // the narrower field of view decides
         let radius = self.radius + length(minus(self.focal, self.centre));
         // The ball touches the frustum's sides: sin(half angle) = radius / distance.
         let factor = if self.orthographic { f } else { (1.0 + f * f).sqrt() };
@@ -205,11 +205,11 @@ impl View {
             if round == 6 {
                 break; // the last look only chooses the distance, so that no point is pushed out
             }
-            for i in 0..2 {
+            for axis in &basis[..2] {
                 // Where the outermost points appear, and at which depth.
                 let seen = rels().map(|rel| {
                     let depth = (distance - deep(rel)).max(f64::MIN_POSITIVE);
-                    (dot(rel, basis[i]) / depth, depth)
+                    (dot(rel, *axis) / depth, depth)
                 });
                 let start = ((f64::MAX, 0.0), (f64::MIN, 0.0));
                 let (low, high) = seen.fold(start, |(low, high), at| {
@@ -218,7 +218,7 @@ impl View {
                 // Moving the camera by m moves a point at depth d by m / d.
                 let shift = (low.0 + high.0) / (1.0 / low.1 + 1.0 / high.1);
                 if shift.is_finite() {
-                    self.focal = along(self.focal, basis[i], shift);
+                    self.focal = along(self.focal, *axis, shift);
                 }
             }
         }
@@ -313,5 +313,75 @@ fn up_of(up: V3) -> Vec3 {
 fn magnify(matrix: &mut Mat4, zoom: f64) {
     for row in 0..2 {
         matrix.m[row][row] = (matrix.m[row][row] as f64 * zoom) as i64;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cmd::info::scene_args;
+
+    /// The corners of a box that lies far from the origin.
+    fn subject() -> Subject {
+        let corner = |i: u8| {
+            std::array::from_fn(|axis| {
+                [1000.0, -50.0, 7.0][axis] + [3.0, 1.0, 2.0][axis] * f64::from(i >> axis & 1)
+            })
+        };
+        let centre = [1001.5, -49.5, 8.0];
+        let points: Vec<V3> = (0..8).map(corner).collect();
+        Subject { centre, radius: length(minus(points[0], centre)), points }
+    }
+
+    /// The farthest that a point lies from the picture's middle: 1 is the edge.
+    fn reach(camera: &Camera, world: &World, points: &[V3]) -> f64 {
+        let matrix = camera.projection.mul(&camera.view);
+        let one = |p: &V3| {
+            let [x, y, z, w] = matrix.transform_point(world.point(*p)).map(|v| v as f64);
+            assert!(0.0 < z && z < w, "between near and far");
+            (x.abs() / w).max(y.abs() / w)
+        };
+        points.iter().map(one).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_model_fills_the_view() {
+        for options in ["", "--orthographic", "--up +Z", "--azimuth 200 --elevation -70 --roll 9"] {
+            for aspect in [(640, 480), (100, 400)] {
+                let args = scene_args(&options.split_whitespace().collect::<Vec<_>>()).camera;
+                let ratio = f64::from(aspect.0) / f64::from(aspect.1);
+                let view = View::new(&args, &subject(), ratio, Fit::Tight).unwrap();
+                let camera = view.cameras(aspect.0, aspect.1).unwrap()[0].0;
+                let reach = reach(&camera, &view.world(), &subject().points);
+                assert!((0.93..0.96).contains(&reach), "{options} {aspect:?}: {reach}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_fitted_ball_stays_inside_however_it_turns() {
+        for options in ["", "--orthographic", "--camera-view-angle 90"] {
+            for size in [(640, 480), (100, 400)] {
+                let args = scene_args(&options.split_whitespace().collect::<Vec<_>>()).camera;
+                let ratio = f64::from(size.0) / f64::from(size.1);
+                let mut view = View::new(&args, &subject(), ratio, Fit::Ball).unwrap();
+                let mut most = 0.0;
+                for _ in 0..30 {
+                    let camera = view.cameras(size.0, size.1).unwrap()[0].0;
+                    most = f64::max(most, reach(&camera, &view.world(), &subject().points));
+                    view.orbit(12.0, 0.0);
+                }
+                assert!(most < 1.0 && most > 0.6, "{options} {size:?}: {most}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_placed_camera_stands_where_it_was_told() {
+        let place = ["--camera-position", "1001.5,-49.5,30", "--azimuth", "90"];
+        let view = View::new(&scene_args(&place).camera, &subject(), 1.0, Fit::Tight).unwrap();
+        assert_eq!(view.eye(), [1023.5, -49.5, 8.0]);
+        let up = ["--camera-position", "1001.5,100,8"];
+        assert!(View::new(&scene_args(&up).camera, &subject(), 1.0, Fit::Tight).is_ok());
     }
 }

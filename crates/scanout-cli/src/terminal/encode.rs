@@ -121,9 +121,9 @@ fn palette(picture: &Picture) -> (Vec<[u8; 3]>, Vec<u8>) {
     }
     let rgba: Vec<u8> = picture.pixels.iter().flat_map(|p| [p[0], p[1], p[2], 255]).collect();
     let quantiser = color_quant::NeuQuant::new(10, 256, &rgba);
-    let index = |pixel: &[u8; 4]| quantiser.index_of(pixel) as u8;
-    let indices = rgba.as_chunks::<4>().0.iter().map(index).collect();
-    (quantiser.color_map_rgb().as_chunks::<3>().0.to_vec(), indices)
+    let index = |pixel: &[u8]| quantiser.index_of(pixel) as u8;
+    let indices = rgba.chunks_exact(4).map(index).collect();
+    (crate::compare::triples(&quantiser.color_map_rgb()), indices)
 }
 
 /// Sixel characters with `!count` for runs longer than three.
@@ -189,18 +189,19 @@ fn xterm256(rgb: [u8; 3]) -> u8 {
     }
 }
 
-/// Characters of growing weight; a character is about twice as high as wide. No control sequences at all.
+/// Characters of growing weight from the darkest to the brightest pixel; a character is about twice as high as wide. No control sequences at all.
 pub fn ascii(out: &mut Vec<u8>, picture: &Picture, terminal: &Abilities) {
     const RAMP: &[u8] = b" .:-=+*#%@";
     let rows = terminal.cells.1.saturating_sub(2).max(1);
     // The last column stays free: some terminals wrap when it is written.
     let square = shrunk(picture, terminal.cells.0.saturating_sub(1).max(1), 2 * rows);
     let picture = resampled(&square, square.width, square.height.div_ceil(2));
+    let luma = |p: &[u8; 3]| usize::from(scanout::output::luma(*p));
+    let (low, high) =
+        picture.pixels.iter().map(luma).fold((255, 0), |(l, h), v| (v.min(l), v.max(h)));
     for row in picture.rows() {
-        let line: Vec<u8> = row
-            .iter()
-            .map(|p| RAMP[usize::from(scanout::output::luma(*p)) * RAMP.len() / 256])
-            .collect();
+        let weigh = |p| RAMP[(luma(p) - low) * (RAMP.len() - 1) / (high - low).max(1)];
+        let line: Vec<u8> = row.iter().map(weigh).collect();
         out.extend_from_slice(line.trim_ascii_end());
         out.push(b'\n');
     }

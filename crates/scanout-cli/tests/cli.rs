@@ -1,0 +1,278 @@
+//! How the program behaves: exit codes, streams, formats, hashes.
+
+mod support;
+
+use std::io::Read;
+use std::process::Stdio;
+
+use support::{model, run, run_with_input, scanout, scratch, stderr, stdout};
+
+const SMALL: [&str; 2] = ["--resolution", "160,120"];
+
+/// `scanout render teapot.obj --resolution 160,120 ...`.
+fn render(more: &[&str]) -> std::process::Output {
+    let teapot = model("teapot.obj");
+    let line: Vec<&str> = ["render", &teapot].iter().chain(&SMALL).chain(more).copied().collect();
+    run(&line)
+}
+
+/// One line, beginning with the program's name and ending with a remedy.
+fn one_line(text: &str) {
+    assert_eq!(text.lines().count(), 1, "{text}");
+    assert!(text.starts_with("scanout: ") && text.contains("; "), "{text}");
+}
+
+#[test]
+fn wrong_lines_exit_with_2_in_one_line() {
+    let wrong: [&[&str]; 12] = [
+        &["--no-such-option"],
+        &["rendr"],
+        &["render"],
+        &["render", "a.obj", "--mode", "sketch"],
+        &["render", "a.obj", "--resolution", "0,5"],
+        &["render", "a.obj", "--background", "whitte"],
+        &["render", "a.obj", "--eye", "0,0,1"],
+        &["render", "a.obj", "--hash", "--json"],
+        &["render", "a.obj", "-o", "-", "--hash"],
+        &["render", "a.obj", "-o", "a.jpg"],
+        &["render", "a.obj"],
+        &["lines", "--octants", "-o", "-", "--table", "-"],
+    ];
+    for line in wrong {
+        let output = run(line);
+        assert_eq!(output.status.code(), Some(2), "{line:?}");
+        assert!(output.stdout.is_empty());
+        one_line(&stderr(&output));
+    }
+}
+
+#[test]
+fn bad_files_exit_with_1_in_one_line() {
+    let missing = run(&["info", "no such file.obj"]);
+    assert_eq!(missing.status.code(), Some(1));
+    one_line(&stderr(&missing));
+    assert!(stderr(&missing).contains("no such file.obj: "));
+
+    let bad = scratch("bad.obj");
+    std::fs::write(&bad, "v 0 0 0\nv 1 0 0\nf 1 2 9\n").unwrap();
+    let output = run(&["render", bad.to_str().unwrap(), "--hash"]);
+    assert_eq!(output.status.code(), Some(1));
+    let last = stderr(&output).lines().last().unwrap_or_default().to_string();
+    one_line(&last);
+    assert!(last.contains("bad.obj"), "{last}");
+
+    let output = render(&["-o", "/no such folder/a.png"]);
+    assert_eq!(output.status.code(), Some(1));
+    one_line(&stderr(&output));
+}
+
+#[test]
+fn standard_input_equals_the_file() {
+    let bytes = std::fs::read(model("teapot.obj")).unwrap();
+    let options = ["--resolution", "160,120", "--hash", "--color", "red"];
+    let line = ["render", "-", "--input-format", "obj"].iter().chain(&options);
+    let piped = run_with_input(&line.copied().collect::<Vec<_>>(), &bytes);
+    let sum = ["--ambient", "0.2", "--diffuse", "0.8", "--specular", "0", "--shininess", "32"];
+    let line = ["render", "-"].iter().chain(&options).chain(&sum).copied();
+    let guessed = run_with_input(&line.collect::<Vec<_>>(), &bytes);
+    assert!(piped.status.success(), "{}", stderr(&piped));
+    assert_eq!(stdout(&piped), stdout(&guessed));
+    let file =
+        render(&["--hash", "--color", "red"].iter().chain(&sum).copied().collect::<Vec<_>>());
+    assert_eq!(stdout(&file), stdout(&guessed));
+}
+
+#[test]
+fn standard_output_carries_the_picture_alone() {
+    let png = render(&["-o", "-"]);
+    assert!(png.stdout.starts_with(b"\x89PNG\r\n") && png.stderr.is_empty());
+    let ppm = render(&["-o", "-", "--output-format", "ppm"]);
+    assert!(ppm.stdout.starts_with(b"P6\n160 120\n255\n"));
+    assert_eq!(ppm.stdout.len(), 15 + 160 * 120 * 3);
+    for (format, bytes) in
+        [("rgb888", 57_600), ("rgb565", 38_400), ("rgb332", 19_200), ("mono", 2_400)]
+    {
+        let raw = render(&["-o", "-", "--output-format", "raw", "--format", format]);
+        assert_eq!(raw.stdout.len(), bytes, "{format}");
+    }
+}
+
+#[test]
+fn a_pipe_closed_early_is_success() {
+    for line in [
+        vec!["render", "M", "-o", "-", "--output-format", "ppm", "--resolution", "1024,768"],
+        vec!["turntable", "M", "-o", "-", "--frames", "4"],
+        vec!["lines", "--octants", "--table", "-", "--resolution", "4001,4001"],
+    ] {
+        let teapot = model("teapot.obj");
+        let line = line.iter().map(|word| if *word == "M" { &teapot } else { *word });
+        let mut child =
+            scanout().args(line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut first = [0; 4];
+        child.stdout.take().unwrap().read_exact(&mut first).unwrap(); // and closed here
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(output.stderr.is_empty(), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn bands_and_threads_cannot_change_a_pixel() {
+    for options in
+        [&["--mode", "phong"][..], &["--format", "rgb565", "--dither"], &["--mode", "hidden"]]
+    {
+        let hash = |bands: &str, threads: &str| {
+            let line = ["--hash", "--bands", bands, "--threads", threads];
+            let output = render(&[options, &line].concat());
+            assert!(output.status.success(), "{}", stderr(&output));
+            stdout(&output)
+        };
+        let expected = hash("240", "1");
+        assert_eq!(expected.trim_end().len(), 16);
+        for bands in ["1", "7", "240"] {
+            for threads in ["1", "2"] {
+                assert_eq!(hash(bands, threads), expected, "{bands} lines, {threads} threads");
+            }
+        }
+    }
+}
+
+#[test]
+fn json_parses_and_holds_the_hash() {
+    let output = render(&["--json"]);
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(value["width"], 160);
+    assert_eq!(value["hash"], stdout(&render(&["--hash"])).trim_end());
+    assert_eq!(value["frames"][0]["triangles"], 992);
+    let stereo = render(&["--json", "--stereo", "anaglyph"]);
+    let value: serde_json::Value = serde_json::from_slice(&stereo.stdout).unwrap();
+    assert_eq!(value["frames"].as_array().map(Vec::len), Some(2));
+
+    let info = run(&["info", &model("earth.obj"), "--json"]);
+    let value: serde_json::Value = serde_json::from_slice(&info.stdout).unwrap();
+    assert_eq!(value["textures"][0]["width"], 1024);
+    assert_eq!(value["memory"]["frame_bytes"], 320 * 240 * 4);
+}
+
+#[test]
+fn stats_go_to_standard_error() {
+    let output = render(&["--stats"]);
+    assert!(output.stdout.is_empty());
+    for word in ["vertices", "back-facing", "primitives", "prepare us", "draw us", "hash"] {
+        assert!(stderr(&output).contains(word), "{word}");
+    }
+}
+
+#[test]
+fn a_reference_is_equal_or_a_difference_is_drawn() {
+    let reference = scratch("reference.ppm");
+    let path = reference.to_str().unwrap();
+    assert!(render(&["-o", path]).status.success());
+    assert_eq!(render(&["--reference", path]).status.code(), Some(0));
+
+    let difference = scratch("reference.seen.png");
+    let seen = difference.to_str().unwrap();
+    let output = render(&["--reference", path, "--azimuth", "31", "--difference", seen]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("pixels differ"), "{}", stderr(&output));
+    assert!(std::fs::read(&difference).unwrap().starts_with(b"\x89PNG"));
+
+    let output = render(&["--reference", path, "--resolution", "80,60"]);
+    assert_eq!(output.status.code(), Some(2), "an option given twice");
+    let output =
+        run(&["render", &model("teapot.obj"), "--resolution", "80,60", "--reference", path]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("measures 160 x 120"));
+}
+
+#[test]
+fn no_color_means_characters_alone() {
+    let plain = render(&["--terminal", "ascii"]);
+    assert!(plain.stdout.iter().all(|byte| *byte == b'\n' || (b' '..=b'~').contains(byte)));
+    assert!(plain.stdout.contains(&b'#'));
+    let teapot = model("teapot.obj");
+    let forced = |how: &str| {
+        let line = ["render", &teapot, "--terminal", how, "--resolution", "160,120"];
+        scanout().args(line).env("NO_COLOR", "1").output().unwrap().stdout
+    };
+    assert!(forced("half-blocks").starts_with(b"\x1b[38;5;"), "forcing beats NO_COLOR");
+    assert!(forced("kitty").starts_with(b"\x1b_Ga=T"));
+    assert!(forced("sixel").starts_with(b"\x1bPq"));
+}
+
+#[test]
+fn several_models_in_one_scene() {
+    let (a, b) = (model("torus.obj"), model("cube.obj"));
+    let output = run(&["render", &a, &b, "--json", "--resolution", "80,60"]);
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let alone = run(&["render", &a, "--json", "--resolution", "80,60"]);
+    let one: serde_json::Value = serde_json::from_slice(&alone.stdout).unwrap();
+    assert_eq!(
+        value["frames"][0]["triangles"].as_u64(),
+        one["frames"][0]["triangles"].as_u64().map(|n| n + 12)
+    );
+}
+
+#[test]
+fn turntables_of_each_container() {
+    let cube = model("cube.obj");
+    let make = |name: &str| {
+        let path = scratch(name);
+        let line = ["turntable", &cube, "--frames", "3", "--resolution", "40,30", "-o"];
+        let output = scanout().args(line).arg(&path).output().unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+        path
+    };
+    assert!(std::fs::read(make("turn.gif")).unwrap().starts_with(b"GIF89a"));
+    let apng = std::fs::read(make("turn.png")).unwrap();
+    assert_eq!(apng.windows(4).filter(|four| four == b"fcTL").count(), 3);
+    let folder = make("turn");
+    assert!(folder.join("frame-0002.png").is_file() && !folder.join("frame-0003.png").exists());
+}
+
+#[test]
+fn the_lines_of_system_d() {
+    let output = run(&["lines", "--octants", "--table", "-"]);
+    let text = stdout(&output);
+    let rows: Vec<Vec<i32>> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(' ').map(|word| word.parse().unwrap()).collect())
+        .collect();
+    assert!(rows.iter().all(|row| row.len() == 6));
+    assert_eq!(rows.last().map(|row| row[0]), Some(15));
+    assert_eq!(rows[0], [0, 120, 120, 255, 0, 0]);
+}
+
+#[test]
+fn the_demonstration_needs_neither_display_nor_terminal_nor_models() {
+    let folder = scratch("empty");
+    std::fs::create_dir_all(&folder).unwrap();
+    let _ = std::fs::remove_dir_all(folder.join("out"));
+    let output = scanout().current_dir(&folder).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(output.stdout.is_empty(), "narration goes to standard error");
+    let told = stderr(&output);
+    assert!(told.contains("no window") && told.contains("Try next"), "{told}");
+    for name in ["textured.png", "hidden.png", "turntable.gif"] {
+        assert!(folder.join("out").join(name).is_file(), "{name}");
+        assert!(told.contains(name), "{name}");
+    }
+}
+
+#[test]
+fn a_window_without_a_display_says_what_to_do() {
+    let output = run(&["view", &model("cube.obj")]);
+    assert_eq!(output.status.code(), Some(1));
+    one_line(&stderr(&output));
+    assert!(stderr(&output).contains("scanout render"));
+}
+
+#[test]
+fn baking_writes_the_binary_and_the_tables() {
+    let folder = scratch("baked");
+    let output = scanout().args(["bake", &model("cube.obj"), "-o"]).arg(&folder).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(std::fs::read(folder.join("cube.mesh")).unwrap().starts_with(b"SCNM"));
+    assert!(folder.join("README.md").is_file());
+}
