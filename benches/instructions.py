@@ -91,7 +91,7 @@ def hot(count, case):
         for row in text.stdout.decode().splitlines():
             if row.startswith("-- Auto-annotated source:"):
                 name = row.rsplit("/", 1)[-1]
-            elif (found := re.match(r"\s*([\d,]+) \([ \d.]+%\)\s(.*)", row)) and name and "=>" not in row:
+            elif (found := re.match(r"\s*([\d,]+) \([ \d.]+%\)\s(.*)", row)) and name and not re.search("=>|events annotated|unidentified lines", row):
                 rows.append((int(found[1].replace(",", "")), name, found[2].strip()))
         for count, name, code in sorted(rows, reverse=True)[:40]:
             print(f"{count:12,}  {name:16} {code}")
