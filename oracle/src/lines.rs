@@ -111,7 +111,9 @@ fn ask(arguments: &[&std::ffi::OsStr]) -> Verdict {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("lines.py");
     let output = match Command::new(python()).arg(script).args(arguments).output() {
         Ok(output) => output,
-        Err(error) => return Verdict::Missing(format!("SKIPPED: no Python ({error}); install python3")),
+        Err(error) => {
+            return Verdict::Missing(format!("SKIPPED: no Python ({error}); install python3"));
+        }
     };
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim().to_owned();
     match output.status.code() {
