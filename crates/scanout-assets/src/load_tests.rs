@@ -202,6 +202,9 @@ fn shipped_models_load_without_a_warning() {
         let vertex = matches!(model.parts[0].mesh.normals, NormalsBuf::Vertex(_));
         assert_eq!(vertex, smooth, "{file}");
     }
+    let hand = load(folder.join("hand.glb"), &LoadOptions::default()).unwrap();
+    assert_eq!(hand.stats.triangles, 2314);
+    assert_eq!(messages(&hand), ["skins are ignored; the rest pose is shown"]);
     let note = load(folder.join("system-b/a.obj"), &LoadOptions::default()).unwrap();
     let torus = load(folder.join("torus.obj"), &LoadOptions::default()).unwrap();
     assert_eq!(note.parts[0].mesh, torus.parts[0].mesh);

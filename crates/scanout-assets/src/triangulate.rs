@@ -98,11 +98,14 @@ fn clip_ears(p: &[[f64; 2]], out: &mut Vec<[u32; 3]>) -> bool {
     let mut at = 0;
     let mut tried = 0;
     let mut clean = true;
+    // Tests of a corner against an ear. Honest polygons need a fraction of this; it bounds the time of hostile ones.
+    let mut budget = 4 * count * count + 1000 * count;
     while left > 3 {
         let (a, c) = (previous[at], next[at]);
         let size = area(p[a], p[at], p[c]);
         let is_ear = size > 0.0
             && reflex.iter().all(|&r| {
+                budget = budget.saturating_sub(1);
                 let q = p[r];
                 q == p[a]
                     || q == p[at]
@@ -112,7 +115,7 @@ fn clip_ears(p: &[[f64; 2]], out: &mut Vec<[u32; 3]>) -> bool {
                     || area(p[c], p[a], q) < 0.0
             });
         // After a whole round without an ear: a corner without area first, then whatever comes.
-        let forced = tried > left && (size == 0.0 || tried > 2 * left);
+        let forced = budget == 0 || (tried > left && (size == 0.0 || tried > 2 * left));
         if is_ear || forced {
             clean &= is_ear || size == 0.0;
             out.push([a as u32, at as u32, c as u32]);

@@ -150,7 +150,10 @@ impl State {
         self.material = match self.names.get(name) {
             Some(&known) => known,
             // A hostile file may name a new material a line.
-            None if next >= 65_536 => 0,
+            None if next >= 65_536 => {
+                self.raw.warnings.warn("more than 65536 materials; the rest are grey");
+                0
+            }
             None => {
                 self.names.insert(name.into(), next);
                 self.raw
