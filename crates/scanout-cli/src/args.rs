@@ -2,9 +2,15 @@
 //!
 //! Names follow f3d where f3d has the option; its longer spellings are accepted as aliases.
 
+mod choices;
+
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap::{Args, Parser, Subcommand, ValueHint};
+
+pub use choices::{
+    DrawMode, InputFormat, OutputFormat, PixelFormat, Stereo, Terminal, TextureFilter, TextureWrap,
+};
 
 use crate::values::{Backdrop, Colour, Extent, LightAt, Resolution, Triple, Up};
 
@@ -74,24 +80,6 @@ impl DemoArgs {
     pub fn standard() -> Self {
         Self { no_window: false, terminal: Terminal::Auto, output: "out".into() }
     }
-}
-
-/// How a picture is shown in a terminal.
-#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Terminal {
-    /// Ask the terminal; NO_COLOR means ascii
-    #[default]
-    Auto,
-    /// The kitty graphics protocol
-    Kitty,
-    /// Sixel graphics
-    Sixel,
-    /// Two pixels a character, 24-bit or 256 colours
-    HalfBlocks,
-    /// Characters of growing weight
-    Ascii,
-    /// No picture in the terminal
-    Off,
 }
 
 /// What is drawn and from where: shared by render, view and turntable.
@@ -368,117 +356,6 @@ pub struct CompletionsArgs {
     pub shell: clap_complete::Shell,
 }
 
-/// How surfaces are drawn.
-#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DrawMode {
-    /// A square at each vertex
-    Points,
-    /// Every edge
-    Wire,
-    /// Edges, without those behind faces
-    Hidden,
-    /// One colour a triangle
-    Flat,
-    /// Lit at the vertices
-    Gouraud,
-    /// Lit at each pixel
-    Phong,
-    /// Lit at the vertices, with the model's textures
-    #[default]
-    Textured,
-}
-
-impl DrawMode {
-    /// All of them, in the order of the window's keys 1 - 7.
-    pub const ALL: [Self; 7] = [
-        Self::Points,
-        Self::Wire,
-        Self::Hidden,
-        Self::Flat,
-        Self::Gouraud,
-        Self::Phong,
-        Self::Textured,
-    ];
-
-    /// The mode's name on the command line.
-    pub fn name(self) -> &'static str {
-        ["points", "wire", "hidden", "flat", "gouraud", "phong", "textured"][self as usize]
-    }
-}
-
-/// Formats of models.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum InputFormat {
-    Obj,
-    Stl,
-    Ply,
-    Gltf,
-    Glb,
-}
-
-/// How a texel is chosen.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextureFilter {
-    /// The texel under the pixel
-    Nearest,
-    /// Four texels, weighted
-    Bilinear,
-    /// As bilinear, in smaller pictures farther away
-    Mipmap,
-}
-
-/// What lies outside a texture.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextureWrap {
-    /// The texture again
-    Repeat,
-    /// The texture again, mirrored every second time
-    Mirror,
-    /// The outermost texel
-    Clamp,
-    /// Black
-    Border,
-}
-
-/// Two eyes in one picture.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stereo {
-    /// For red-cyan glasses
-    Anaglyph,
-    /// Left eye in the left half
-    SideBySide,
-    /// Left eye in the upper half
-    TopBottom,
-    /// Left eye in the even lines
-    Interlaced,
-}
-
-/// Pixels as the display takes them.
-#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PixelFormat {
-    /// 24 bits
-    #[default]
-    Rgb888,
-    /// 16 bits
-    Rgb565,
-    /// 8 bits
-    Rgb332,
-    /// 1 bit
-    Mono,
-}
-
-/// Formats of pictures.
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OutputFormat {
-    /// Portable Network Graphics
-    Png,
-    /// Portable pixmap, P6
-    Ppm,
-    /// The frame's bytes as a display takes them, and nothing else
-    Raw,
-}
-
 fn between(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| match text.parse::<f64>() {
         Ok(value) if (low..=high).contains(&value) => Ok(value),
@@ -493,7 +370,7 @@ fn angle() -> impl Fn(&str) -> Result<f64, String> + Clone {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
+    use clap::{CommandFactory, ValueEnum};
 
     use super::*;
 

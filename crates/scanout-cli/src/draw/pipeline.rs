@@ -73,7 +73,9 @@ pub fn draw<F: PixelFormat>(
         std::thread::scope(|scope| {
             let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
             let mine = work();
-            let all = others.into_iter().map(|other| other.join().unwrap_or(Ok(())));
+            let all = others
+                .into_iter()
+                .map(|other| other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
             all.fold(mine, |sum, one| sum.and(one))
         })
         .map_err(|error| failed(&error))?;
