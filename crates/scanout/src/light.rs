@@ -72,6 +72,8 @@ pub struct Lighting {
     shininess: u16,
     shines: bool,
     near: bool,
+    /// Only diffuse white light from afar: one sum serves all channels.
+    plain: bool,
     space: Space,
 }
 
@@ -161,6 +163,7 @@ impl Lighting {
                 specular: weight(specular, light.colour),
             };
         }
+        let near = specular > 0 || lights.iter().any(|l| matches!(l.kind, LightKind::Point(_)));
         Lighting {
             lamps,
             count: lights.len().min(MAX_LIGHTS),
@@ -172,7 +175,8 @@ impl Lighting {
             floor: q14(floor),
             shininess: material.shininess.max(1),
             shines: specular > 0,
-            near: specular > 0 || lights.iter().any(|l| matches!(l.kind, LightKind::Point(_))),
+            near,
+            plain: !near && lights.iter().all(|l| l.colour == [l.colour[0]; 3]),
             space,
         }
     }
@@ -229,10 +233,23 @@ impl Lighting {
         sum.map(|i| i.clamp(self.floor, ONE))
     }
 
+    /// The same where light is [`plain`](Self::plain).
+    #[inline(always)]
+    fn plain_intensity(&self, n: [i32; 3]) -> i32 {
+        let mut sum = self.ambient;
+        for lamp in &self.lamps[..self.count] {
+            if let Towards::Direction(l) = lamp.towards {
+                sum += (dot(n, l).clamp(0, ONE) * lamp.diffuse[0]) >> 14;
+            }
+        }
+        sum.clamp(self.floor, ONE)
+    }
+
     /// A surface colour under the lights.
     #[inline]
     pub fn lit(&self, rgb: [u8; 3], n: [i32; 3], p: [i32; 3]) -> [u8; 3] {
-        let intensity = self.intensity(n, p);
+        let intensity =
+            if self.plain { [self.plain_intensity(n); 3] } else { self.intensity(n, p) };
         core::array::from_fn(|i| ((rgb[i] as i32 * intensity[i] + ONE / 2) >> 14) as u8)
     }
 }
@@ -359,6 +376,27 @@ mod tests {
         let lighting = Lighting::new(&[red], Q16::from_f64(0.2), &view, &m, &Mat4::IDENTITY);
         assert_eq!(lighting.lit([255; 3], [0, 0, ONE], [0; 3]), [255, 51, 51]);
         assert_eq!(lighting.lit([255; 3], [0, 0, -ONE], [0; 3]), [51; 3]);
+    }
+
+    /// The short way for white light from afar is the long one.
+    #[test]
+    fn plain_light_is_light() {
+        let mut random = Random(3);
+        for count in 0..=MAX_LIGHTS {
+            let lights: [Light; MAX_LIGHTS] = core::array::from_fn(|i| Light {
+                kind: LightKind::Directional(Vec3::from_f64(random.vector(1.0))),
+                colour: [(40 * i) as u8; 3],
+            });
+            let view = Viewpoint::Direction(Vec3::Z);
+            let m = material(0.1, 0.4, 0.0, 1);
+            let lighting =
+                Lighting::new(&lights[..count], Q16::from_f64(0.15), &view, &m, &Mat4::IDENTITY);
+            assert!(lighting.plain);
+            for _ in 0..500 {
+                let n = unit(random.vector(1.0)).map(|v| (v * 16384.0).round() as i32);
+                assert_eq!([lighting.plain_intensity(n); 3], lighting.intensity(n, [0; 3]));
+            }
+        }
     }
 
     #[test]

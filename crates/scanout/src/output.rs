@@ -40,6 +40,10 @@ pub trait PixelFormat: Copy + 'static {
     fn store(row: &mut [Self::Word], x: usize, pixel: Self::Pixel);
     /// The colour at column `x` of a row, widened to 8 bits a channel by bit replication.
     fn load(row: &[Self::Word], x: usize) -> [u8; 3];
+    /// Colour memory as pixels, where a word is a pixel.
+    fn pixels(_words: &mut [Self::Word]) -> Option<&mut [Self::Pixel]> {
+        None
+    }
     /// Visits the depths of columns from `first` on, one for each of `depths`, and stores the pixel where the visitor returns
     /// one.
     #[inline(always)]
@@ -132,6 +136,10 @@ impl PixelFormat for Rgb888 {
         row[x]
     }
     #[inline(always)]
+    fn pixels(words: &mut [[u8; 3]]) -> Option<&mut [[u8; 3]]> {
+        Some(words)
+    }
+    #[inline(always)]
     fn visit(
         row: &mut [Self::Word],
         first: usize,
@@ -176,6 +184,10 @@ impl PixelFormat for Rgb565 {
     #[inline(always)]
     fn load(row: &[u16], x: usize) -> [u8; 3] {
         widen565(row[x])
+    }
+    #[inline(always)]
+    fn pixels(words: &mut [u16]) -> Option<&mut [u16]> {
+        Some(words)
     }
     #[inline(always)]
     fn visit(
@@ -223,6 +235,10 @@ impl PixelFormat for Rgb332 {
     fn load(row: &[u8], x: usize) -> [u8; 3] {
         let (r, g, b) = (row[x] >> 5, row[x] >> 2 & 7, row[x] & 3);
         [r << 5 | r << 2 | r >> 1, g << 5 | g << 2 | g >> 1, b * 85]
+    }
+    #[inline(always)]
+    fn pixels(words: &mut [u8]) -> Option<&mut [u8]> {
+        Some(words)
     }
     #[inline(always)]
     fn visit(

@@ -45,6 +45,8 @@ fn every_mode_in_every_order() {
     let mesh_data = sphere(16, 12);
     let mesh = mesh_data.mesh();
     let texels = checkerboard();
+    let small_texels: Vec<u16> = (0..16 * 8).map(|i| (i * 40503) as u16).collect();
+    let small = Texture::new(16, 8, Texels::Rgb565(&small_texels)).unwrap();
     let mut texture = Texture::new(60, 40, Texels::Rgb888(&texels)).unwrap();
     (texture.levels, texture.wrap) = (3, [Wrap::Mirror, Wrap::Border]);
     texture.filter = Filter::Bilinear;
@@ -55,7 +57,11 @@ fn every_mode_in_every_order() {
             m.two_sided = variant == 2;
             let mut first = object(&mesh, &m, mode);
             (first.smooth_lines, first.point_size) = (variant == 1, 1 + 3 * variant as u8);
+            // The second object's own material: another texture, of the kind that is fetched by masks.
+            let mut other = m;
+            other.texture = (variant > 0).then_some(&small);
             let mut second = first;
+            second.material = &other;
             second.transform = Mat4::translation(Vec3::from_f64([0.7, 0.3, 0.2]));
             let objects = [first, second];
             let mut scene = scene(camera(160, 120), &objects);

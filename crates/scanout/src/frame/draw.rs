@@ -325,6 +325,9 @@ impl<'f> Painter<'f> {
             });
         } else {
             let [a, b] = ends.map(|v| LineEnd { x: v.x >> 4, y: v.y >> 4, z: v.z, rgb: v.rgb });
+            if !hidden && a.rgb == b.rgb && target.draw_line(&a, &b) {
+                return;
+            }
             walk(&a, &b, clip, |x, y, z, rgb| target.plot(x, y, hidden.then_some(z), rgb));
         }
     }

@@ -213,8 +213,10 @@ impl ObjectPass<'_> {
             vertex.rgb = modulate(colour, self.object.material.colour);
         }
         if let (Mode::Gouraud, Normals::Vertex(normals)) = (self.object.mode, mesh.normals) {
-            for (i, vertex) in vertices.iter_mut().enumerate() {
-                let (n, p) = lighting.local(normals[i], mesh.positions[i]);
+            for ((vertex, &normal), &position) in
+                vertices.iter_mut().zip(normals).zip(mesh.positions)
+            {
+                let (n, p) = lighting.local(normal, position);
                 vertex.rgb = lighting.lit(vertex.rgb, n, p);
             }
         }

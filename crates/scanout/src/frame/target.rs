@@ -7,7 +7,7 @@ use super::fragment::Shader;
 use crate::depth;
 use crate::interpolate::Plane;
 use crate::output::PixelFormat;
-use crate::raster::line::ClipRect;
+use crate::raster::line::{ClipRect, LineEnd, fill_cells};
 use crate::raster::triangle::{Run, spans, tiles};
 use crate::scene::Background;
 use crate::setup::Triangle;
@@ -145,6 +145,18 @@ impl<F: PixelFormat> Target<'_, F> {
                 }
             }
         });
+    }
+
+    /// A line of one colour without depth, the quick way; false where the format or dither forbids it.
+    pub(super) fn draw_line(&mut self, a: &LineEnd, b: &LineEnd) -> bool {
+        let (clip, width) = (self.clip_rect(), self.width);
+        match F::pixels(self.colour) {
+            Some(cells) if !self.dither => {
+                fill_cells(cells, width, clip, a, b, F::encode(a.rgb));
+                true
+            }
+            _ => false,
+        }
     }
 
     #[inline]
