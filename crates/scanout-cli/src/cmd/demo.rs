@@ -78,7 +78,7 @@ fn files(earth: &Model, folder: &Path) -> Result<()> {
     write("mono", earth, &["--format", "mono", "--dither", "--background", "black"])?;
     let scene = scene_args(&[]);
     let stage = Stage::with_models(vec![earth.clone()], &scene)?;
-    let shot = stage.shot(&scene, (320, 240), Fit::Ball)?;
+    let shot = stage.shot(&scene, (320, 240), Fit::Turn)?;
     let path = folder.join("turntable.gif");
     let turn = Turn { frames: 45, fps: 20 };
     turntable::write(&stage, &shot, &Options::new(&scene.picture), turn, &path)?;

@@ -26,7 +26,7 @@ pub fn run(args: &TurntableArgs) -> Result<()> {
     let picture = &args.scene.picture;
     let size = (picture.resolution.width, picture.resolution.height);
     let stage = Stage::load(&args.scene)?;
-    let shot = stage.shot(&args.scene, size, Fit::Ball)?;
+    let shot = stage.shot(&args.scene, size, Fit::Turn)?;
     let turn = Turn { frames: args.frames, fps: args.fps };
     write(&stage, &shot, &Options::new(picture), turn, &args.output)?;
     if !is_dash(&args.output) {

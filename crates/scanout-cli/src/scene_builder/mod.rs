@@ -2,7 +2,7 @@
 //!
 //! [`Stage::load`] reads everything that lasts (models, textures, the picture behind); [`Stage::with_scenes`] puts it
 //! before the cameras of one frame. The pipeline's world is the file's, moved and scaled by the view's
-//! [`World`](view::World), so that models in micrometres and in kilometres use the same bits.
+//! [`World`], so that models in micrometres and in kilometres use the same bits.
 
 mod material;
 pub mod vector;
@@ -49,10 +49,8 @@ pub struct Stage {
 pub struct Shot {
     /// The camera on its way.
     pub view: View,
-    /// Turn of the models about [`Shot::axis`] through the subject's middle, degrees.
+    /// Turn of the models about [`View::turn_axis`] through the subject's middle, degrees.
     pub turn: f64,
-    /// The axis of that turn, any length but 0.
-    pub axis: [f64; 3],
     /// Size of the frame, pixels.
     pub size: (u16, u16),
 }
@@ -135,19 +133,15 @@ impl Stage {
 
     /// The first shot that the options ask for, of a picture `size`.
     pub fn shot(&self, args: &SceneArgs, size: (u16, u16), fit: Fit) -> Result<Shot> {
-        let fit = if args.camera.rotation_frame.is_some() { Fit::Ball } else { fit };
+        let fit = if args.camera.rotation_frame.is_some() { Fit::Turn } else { fit };
         let eye = match args.camera.stereo {
             Some(how) => crate::stereo::eye_sizes(how, size.0, size.1)[0],
             None => size,
         };
         let aspect = f64::from(eye.0.max(1)) / f64::from(eye.1.max(1));
         let view = View::new(&args.camera, &self.subject, aspect, fit)?;
-        let axis = args.camera.rotation_axis.map_or(view.axis, |axis| axis.0);
-        let axis = normalised(axis).ok_or_else(|| {
-            Error::usage("--rotation-axis has no direction", "give a vector longer than 0")
-        })?;
         let turn = f64::from(args.camera.rotation_frame.unwrap_or(0)) * 4.0;
-        Ok(Shot { view, turn, axis, size })
+        Ok(Shot { view, turn, size })
     }
 
     /// Builds the scene of each eye and hands it over with the size of its picture.
@@ -251,7 +245,8 @@ fn placed(model: &Model, world: &World, shot: &Shot) -> Mat4 {
         [0.0, 0.0, scale, z],
         [0.0, 0.0, 0.0, 1.0],
     ]);
-    let turn = Quat::from_axis_angle(direction(shot.axis), Angle::from_degrees_f64(shot.turn));
+    let turn =
+        Quat::from_axis_angle(direction(shot.view.turn_axis), Angle::from_degrees_f64(shot.turn));
     match turn {
         Some(turn) if shot.turn != 0.0 => Mat4::rotation(&turn).mul(&place),
         _ => place,

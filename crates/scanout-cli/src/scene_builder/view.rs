@@ -7,7 +7,7 @@
 //!      focal +----- right
 //! ```
 //!
-//! All in f64 and in the coordinates of the model's file. [`View::camera`] moves to the pipeline's world (see
+//! All in f64 and in the coordinates of the model's file. [`View::cameras`] moves to the pipeline's world (see
 //! [`World`]) and fixed point.
 
 use scanout::camera::{Camera, CameraError, Screen, projection};
@@ -80,6 +80,8 @@ pub struct View {
     pub orthographic: bool,
     /// Two eyes and their distance.
     pub stereo: Option<(Stereo, Option<f64>)>,
+    /// The axis about which the model turns, a unit vector.
+    pub turn_axis: V3,
     /// The off-axis eye and screen.
     pub window: Option<(V3, [f64; 2])>,
     centre: V3,
@@ -91,8 +93,21 @@ pub struct View {
 pub enum Fit {
     /// This picture: tight around the points.
     Tight,
+    /// A turn of the model about [`View::turn_axis`]: tight around the points wherever it brings them.
+    Turn,
     /// Any turn of the model: around the ball.
     Ball,
+}
+
+/// Pictures of a turn that are looked at to fit it; the points of a finer turn lie within 1 / 500 of these.
+const SWEEP: i32 = 48;
+
+/// The points in all positions of a turn.
+fn swept(points: &[V3], centre: V3, axis: V3) -> Vec<V3> {
+    let angles = (0..SWEEP).map(|step| 360.0 * f64::from(step) / f64::from(SWEEP));
+    let turned_to =
+        |angle| move |p: &V3| along(centre, turned(minus(*p, centre), axis, angle), 1.0);
+    angles.flat_map(|angle| points.iter().map(turned_to(angle))).collect()
 }
 
 impl View {
@@ -126,8 +141,15 @@ impl View {
             }
             None => [1.0, 0.0, 0.0],
         };
+        let turn_axis = match args.rotation_axis {
+            None => axis,
+            Some(axis) => normalised(axis.0).ok_or_else(|| {
+                Error::usage("--rotation-axis has no direction", "give a vector longer than 0")
+            })?,
+        };
         let mut view = Self {
             focal,
+            turn_axis,
             basis: [right, cross(back, right), back],
             axis,
             distance: args.eye.map_or(standing.map_or(1.0, length), |eye| eye.0[2]),
@@ -151,6 +173,10 @@ impl View {
             let centred = args.camera_focal_point.is_none();
             match fit {
                 Fit::Tight if centred => view.fit_points(&subject.points, aspect),
+                Fit::Turn if centred => {
+                    let points = swept(&subject.points, subject.centre, view.turn_axis);
+                    view.fit_points(&points, aspect);
+                }
                 _ => view.fit_ball(aspect),
             }
         }
@@ -374,6 +400,16 @@ mod tests {
                 assert!(most < 1.0 && most > 0.6, "{options} {size:?}: {most}");
             }
         }
+    }
+
+    #[test]
+    fn a_fitted_turn_fills_the_view_and_stays_inside() {
+        let args = scene_args(&[]).camera;
+        let view = View::new(&args, &subject(), 1.5, Fit::Turn).unwrap();
+        let camera = view.cameras(600, 400).unwrap()[0].0;
+        let ring = swept(&subject().points, subject().centre, view.turn_axis);
+        let most = reach(&camera, &view.world(), &ring);
+        assert!((0.93..0.96).contains(&most), "{most}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Pictures in a terminal.
 //!
-//! The terminal is asked what it can show ([`query`]); `TERM` is never trusted, because it doesn't survive ssh,
+//! The terminal is asked what it can show (module `query`); `TERM` is never trusted, because it doesn't survive ssh,
 //! containers and multiplexers. `--terminal` forces a way. With `NO_COLOR` set, the automatic choice is characters.
 
 mod encode;
