@@ -44,6 +44,10 @@ pub trait PixelFormat: Copy + 'static {
     fn pixels(_words: &mut [Self::Word]) -> Option<&mut [Self::Pixel]> {
         None
     }
+    /// A row as RGB565 pixels, where it is: several are then drawn side by side.
+    fn rgb565(_row: &mut [Self::Word]) -> Option<&mut [u16]> {
+        None
+    }
     /// Visits the depths of columns from `first` on, one for each of `depths`, and stores the pixel where the visitor returns
     /// one.
     #[inline(always)]
@@ -188,6 +192,10 @@ impl PixelFormat for Rgb565 {
     #[inline(always)]
     fn pixels(words: &mut [u16]) -> Option<&mut [u16]> {
         Some(words)
+    }
+    #[inline(always)]
+    fn rgb565(row: &mut [u16]) -> Option<&mut [u16]> {
+        Some(row)
     }
     #[inline(always)]
     fn visit(

@@ -112,6 +112,35 @@ fn clipped_scenes() {
     }
 }
 
+/// RGB565 is drawn eight pixels at a time where the machine can, RGB888 one at a time: the first is the second, encoded.
+#[test]
+fn eight_at_a_time_is_one_at_a_time() {
+    let texels: Vec<u16> = (0..32 * 32).map(|i| (i * 40503) as u16).collect();
+    let texture = Texture::new(32, 32, Texels::Rgb565(&texels)).unwrap();
+    for (segments, rings) in [(5, 4), (16, 12), (60, 40)] {
+        let mesh_data = sphere(segments, rings);
+        let mesh = mesh_data.mesh();
+        for (mode, textured) in
+            [(Mode::Flat, false), (Mode::Gouraud, false), (Mode::Flat, true), (Mode::Gouraud, true)]
+        {
+            let mut m = material();
+            m.texture = textured.then_some(&texture);
+            m.two_sided = true;
+            let objects = [object(&mesh, &m, mode)];
+            // Widths that are and are not multiples of eight, and one narrower than that.
+            for width in [160, 157, 5] {
+                let settings = Settings::new(width, 120);
+                let scene = scene(camera(160, 120), &objects);
+                let fast: Picture<Rgb565> = draw(&scene, settings, 50, false);
+                let slow: Picture<Rgb888> = draw(&scene, settings, 120, false);
+                let encoded: Vec<u16> = slow.colour.iter().map(|&c| Rgb565::encode(c)).collect();
+                assert!(fast.depth == slow.depth, "{mode:?} {textured} {width}");
+                assert!(fast.colour == encoded, "{mode:?} {textured} {width}");
+            }
+        }
+    }
+}
+
 /// Several threads draw bands of one prepared frame.
 #[test]
 fn threads_share_a_frame() {

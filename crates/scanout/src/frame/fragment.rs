@@ -4,6 +4,7 @@
 //! plane's value at the next pixel; a row always begins from the plane, so no shader remembers where it has been.
 
 use crate::interpolate::{Plane, channel};
+use crate::lanes::{LANES, U16x8, U32x8};
 use crate::light::Lighting;
 use crate::math::normalise_q14;
 use crate::setup::Triangle;
@@ -14,6 +15,19 @@ use crate::texture::{Sampler, TextureSetup, integer_q, reciprocal};
 pub(super) trait Shader {
     /// Every fragment has the same colour.
     const CONSTANT: bool = false;
+    /// Can give eight colours at a time.
+    const SIDE_BY_SIDE: bool = false;
+    /// What eight colours share over the whole triangle.
+    type Ramps: Copy;
+    /// Prepares for eight colours at a time.
+    fn ramps(&self) -> Self::Ramps;
+    /// The colours here and of the next seven pixels to the right, channel by channel; only those whose bit in `pass` is
+    /// set need be right.
+    fn side_by_side(&self, _ramps: &Self::Ramps, _pass: u32) -> [U16x8; 3] {
+        [U16x8::splat(0); 3]
+    }
+    /// Goes eight pixels to the right.
+    fn step_eight(&mut self) {}
     /// Goes to pixel (x, y).
     fn place(&mut self, x: i32, y: i32);
     /// Goes one pixel to the right.
@@ -41,13 +55,24 @@ impl Walk {
     fn step(&mut self) {
         self.value = self.value.wrapping_add(self.plane.gx);
     }
+    #[inline(always)]
+    fn step_eight(&mut self) {
+        self.value = self.value.wrapping_add(self.plane.gx.wrapping_mul(LANES as u32));
+    }
 }
 
 /// One colour.
 pub(super) struct Flat(pub [u8; 3]);
 
 impl Shader for Flat {
+    type Ramps = ();
+    fn ramps(&self) {}
     const CONSTANT: bool = true;
+    const SIDE_BY_SIDE: bool = true;
+    #[inline(always)]
+    fn side_by_side(&self, _ramps: &(), _pass: u32) -> [U16x8; 3] {
+        self.0.map(|c| U16x8::splat(c as u16))
+    }
     #[inline(always)]
     fn place(&mut self, _x: i32, _y: i32) {}
     #[inline(always)]
@@ -71,6 +96,21 @@ impl Gouraud {
 }
 
 impl Shader for Gouraud {
+    const SIDE_BY_SIDE: bool = true;
+    type Ramps = [U32x8; 3];
+    #[inline(always)]
+    fn ramps(&self) -> [U32x8; 3] {
+        self.0.map(|walk| U32x8::ramp(0x8000, walk.plane.gx))
+    }
+    #[inline(always)]
+    fn side_by_side(&self, ramps: &[U32x8; 3], _pass: u32) -> [U16x8; 3] {
+        let byte = U16x8::splat(0xff);
+        [0, 1, 2].map(|i| U32x8::splat(self.0[i].value).add(ramps[i]).high().and(byte))
+    }
+    #[inline(always)]
+    fn step_eight(&mut self) {
+        self.0.iter_mut().for_each(Walk::step_eight);
+    }
     #[inline(always)]
     fn place(&mut self, x: i32, y: i32) {
         self.0.iter_mut().for_each(|w| w.place(x, y));
@@ -101,6 +141,44 @@ impl<'a, S, T> Textured<'a, S, T> {
 }
 
 impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
+    type Ramps = S::Ramps;
+    #[inline(always)]
+    fn ramps(&self) -> S::Ramps {
+        self.inner.ramps()
+    }
+    const SIDE_BY_SIDE: bool = S::SIDE_BY_SIDE && T::RGB565;
+    #[inline(always)]
+    fn side_by_side(&self, ramps: &S::Ramps, pass: u32) -> [U16x8; 3] {
+        let mut texels = [0; LANES];
+        let mut rest = pass;
+        while rest != 0 {
+            let i = rest.trailing_zeros();
+            let at = |walk: &Walk| walk.value.wrapping_add(walk.plane.gx.wrapping_mul(i));
+            let q = integer_q(at(&self.q));
+            let st = [at(&self.st[0]), at(&self.st[1])];
+            texels[i as usize & 7] = self.sampler.texel565(&self.setup, st, reciprocal(q));
+            rest &= rest - 1;
+        }
+        let (colours, p) = (self.inner.side_by_side(ramps, pass), U16x8::load(&texels));
+        // The same as `widen565` and `modulate`, in eight lanes.
+        let (r, g, b) =
+            (p.shr::<11>(), p.shr::<5>().and(U16x8::splat(63)), p.and(U16x8::splat(31)));
+        let wide = [
+            r.shl::<3>().or(r.shr::<2>()),
+            g.shl::<2>().or(g.shr::<4>()),
+            b.shl::<3>().or(b.shr::<2>()),
+        ];
+        [0, 1, 2].map(|i| {
+            let t = wide[i].mul(colours[i]).add(U16x8::splat(128));
+            t.add(t.shr::<8>()).shr::<8>()
+        })
+    }
+    #[inline(always)]
+    fn step_eight(&mut self) {
+        self.inner.step_eight();
+        self.q.step_eight();
+        self.st.iter_mut().for_each(Walk::step_eight);
+    }
     #[inline(always)]
     fn place(&mut self, x: i32, y: i32) {
         self.inner.place(x, y);
@@ -161,6 +239,8 @@ pub(super) struct Phong<'a, S> {
 }
 
 impl<S: Shader> Shader for Phong<'_, S> {
+    type Ramps = ();
+    fn ramps(&self) {}
     #[inline(always)]
     fn place(&mut self, x: i32, y: i32) {
         self.surface.place(x, y);
@@ -190,6 +270,8 @@ pub(super) struct Fogged<'a, S> {
 }
 
 impl<S: Shader> Shader for Fogged<'_, S> {
+    type Ramps = ();
+    fn ramps(&self) {}
     #[inline(always)]
     fn place(&mut self, x: i32, y: i32) {
         self.inner.place(x, y);

@@ -6,7 +6,8 @@ use super::Traversal;
 use super::fragment::Shader;
 use crate::depth;
 use crate::interpolate::Plane;
-use crate::output::PixelFormat;
+use crate::lanes::{self, LANES, U16x8, U32x8};
+use crate::output::{PixelFormat, Rgb565};
 use crate::raster::line::{ClipRect, LineEnd, fill_cells};
 use crate::raster::triangle::{Run, spans, tiles};
 use crate::scene::Background;
@@ -86,6 +87,8 @@ impl<F: PixelFormat> Target<'_, F> {
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, mut shader: S) {
         if self.dither {
             self.runs(t, |target, runs| target.fill_dithered(z, &mut shader, runs));
+        } else if lanes::AVAILABLE && S::SIDE_BY_SIDE && F::rgb565(&mut []).is_some() {
+            self.runs(t, |target, runs| target.fill_side_by_side(z, &mut shader, runs));
         } else {
             self.runs(t, |target, runs| target.fill_runs(z, &mut shader, runs));
         }
@@ -107,6 +110,55 @@ impl<F: PixelFormat> Target<'_, F> {
                 shader.step();
                 pixel
             });
+        }
+    }
+
+    /// [`fill_runs`](Self::fill_runs) eight pixels at a time where the row has room for them, RGB565 only.
+    #[inline(never)]
+    fn fill_side_by_side<S: Shader>(&mut self, z: &Plane, shader: &mut S, runs: &[Run]) {
+        let z_ramp = U32x8::ramp(0x8000, z.gx);
+        let ramps = shader.ramps();
+        for run in runs.iter().filter(|run| run.x0 < run.x1) {
+            let (row, depths) = self.row(run.y);
+            let Some(row) = F::rgb565(row) else { return };
+            let (first, last) = (run.x0 as usize, run.x1 as usize);
+            let (row, depths) = (&mut row[first..], &mut depths[first..]);
+            let mut x = 0;
+            let mut value = z.at(run.x0, run.y);
+            let mut left = last - first;
+            shader.place(run.x0, run.y);
+            while let (Some(pixels), Some(stored)) =
+                (row[x..].first_chunk_mut::<LANES>(), depths[x..].first_chunk_mut::<LANES>())
+            {
+                let old = U16x8::load(stored);
+                let new = U32x8::splat(value).add(z_ramp).high();
+                let pass = new.below(old).and(U16x8::first(left));
+                let bits = pass.bits();
+                if bits != 0 {
+                    pass.select(new, old).store(stored);
+                    let [r, g, b] = shader.side_by_side(&ramps, bits);
+                    let rg = r
+                        .and(U16x8::splat(0xf8))
+                        .shl::<8>()
+                        .or(g.and(U16x8::splat(0xfc)).shl::<3>());
+                    pass.select(rg.or(b.shr::<3>()), U16x8::load(pixels)).store(pixels);
+                }
+                if left <= LANES {
+                    left = 0;
+                    break;
+                }
+                left -= LANES;
+                value = value.wrapping_add(z.gx.wrapping_mul(LANES as u32));
+                shader.step_eight();
+                x += LANES;
+            }
+            for (pixel, stored) in row[x..].iter_mut().zip(&mut depths[x..]).take(left) {
+                if depth::test(stored, depth::round(value)) {
+                    *pixel = Rgb565::encode(shader.colour());
+                }
+                value = value.wrapping_add(z.gx);
+                shader.step();
+            }
         }
     }
 

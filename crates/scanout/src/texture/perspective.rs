@@ -101,6 +101,12 @@ impl<'a> TextureSetup<'a> {
 
 /// A way to fetch texels: the general one, or one that knows more about its texture and gives the same.
 pub trait Sampler {
+    /// Texels can be had as they are stored, RGB565.
+    const RGB565: bool = false;
+    /// The texel as it is stored, where it is RGB565; `texel` is this, widened.
+    fn texel565(&self, _setup: &TextureSetup, _st: [u32; 2], _r: u64) -> u16 {
+        0
+    }
     /// The texel of a pixel from the values of its s/w and t/w planes, its 1/w and the reciprocal of that.
     fn texel(&self, setup: &TextureSetup, st: [u32; 2], q: u32, r: u64) -> [u8; 3];
 }
@@ -143,15 +149,20 @@ impl<'a> Repeat565<'a> {
 }
 
 impl Sampler for Repeat565<'_> {
+    const RGB565: bool = true;
     #[inline(always)]
-    fn texel(&self, setup: &TextureSetup, st: [u32; 2], _q: u32, r: u64) -> [u8; 3] {
+    fn texel565(&self, setup: &TextureSetup, st: [u32; 2], r: u64) -> u16 {
         let [x, y] = [0, 1].map(|i| {
             let shift = setup.shift[i];
             let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift - 1));
             (product >> (shift + SUBTEXEL_BITS)) & self.mask[i]
         });
         let index = (y << self.log2_width | x) as usize;
-        self.texels.get(index).map_or([0; 3], |&p| widen565(p))
+        self.texels.get(index).copied().unwrap_or(0)
+    }
+    #[inline(always)]
+    fn texel(&self, setup: &TextureSetup, st: [u32; 2], _q: u32, r: u64) -> [u8; 3] {
+        widen565(self.texel565(setup, st, r))
     }
 }
 
