@@ -135,10 +135,10 @@ impl Triangle {
             return Plane::constant(a[0]);
         }
         let half = self.area >> 1;
-        let nx = da1 * self.d2[1] - da2 * self.d1[1];
-        let ny = self.d1[0] * da2 - self.d2[0] * da1;
-        let gx = (nx * 16 + half).div_euclid(self.area);
-        let gy = (ny * 16 + half).div_euclid(self.area);
+        // Floor of n / area: the truncated quotient, less one where the remainder is negative.
+        let floor = |n: i64| n / self.area + ((n % self.area) >> 63);
+        let gx = floor((da1 * self.d2[1] - da2 * self.d1[1]) * 16 + half);
+        let gy = floor((self.d1[0] * da2 - self.d2[0] * da1) * 16 + half);
         let offset =
             gx.wrapping_mul(8 - self.origin[0]).wrapping_add(gy.wrapping_mul(8 - self.origin[1]));
         Plane { c: a[0].wrapping_add((offset >> 4) as u32), gx: gx as u32, gy: gy as u32 }

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walk};
+use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
 use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
@@ -236,7 +236,7 @@ impl<'f> Painter<'f> {
                     lighting,
                     normal: Signed::new(t, full.map(|c| c.normal), q),
                     position: Signed::new(t, full.map(|c| c.position), q),
-                    q: Walk::new(t.plane(q.map(|q| q << 8))),
+                    q: t.plane(q.map(|q| q << 8)),
                 };
                 self.texture(t, v, &z, corners, shader, target);
             }
@@ -266,9 +266,15 @@ impl<'f> Painter<'f> {
                 let uv = [0, 1, 2].map(|k| self.uv(corners, k));
                 let setup = TextureSetup::new(t, texture, uv, q);
                 let q = t.plane(q.map(|q| q << 8));
+                let inner = shader;
                 match Repeat565::new(texture) {
-                    Some(fast) => self.fog(t, v, z, Textured::new(shader, fast, setup, q), target),
-                    None => self.fog(t, v, z, Textured::new(shader, General, setup, q), target),
+                    Some(sampler) => {
+                        self.fog(t, v, z, Textured { inner, sampler, setup, q }, target);
+                    }
+                    None => {
+                        let sampler = General;
+                        self.fog(t, v, z, Textured { inner, sampler, setup, q }, target);
+                    }
                 }
             }
             None => self.fog(t, v, z, shader, target),
@@ -290,12 +296,12 @@ impl<'f> Painter<'f> {
         match &self.frame.fog {
             Some(fog) => {
                 let (q, exponent) = common_inverse_w(v);
-                let q = Walk::new(t.plane(q.map(|q| q << 8)));
+                let q = t.plane(q.map(|q| q << 8));
                 // Clip units: w = 2^(54 - exponent) / q; world units: 2^(m - 32) times that.
                 let shift = exponent as i32 + 9 - self.state.clip.exponent;
-                target.fill(t, z, Fogged { inner: shader, fog, q, shift });
+                target.fill(t, z, &Fogged { inner: shader, fog, q, shift });
             }
-            None => target.fill(t, z, shader),
+            None => target.fill(t, z, &shader),
         }
     }
 

@@ -1,7 +1,8 @@
 //! Fragments: the colour of each covered pixel, from constants, planes, texels and per-pixel light.
 //!
-//! A [`Shader`] is placed at a pixel and stepped to the right. Stepping adds a gradient modulo 2^32, which is exactly the
-//! plane's value at the next pixel; a row always begins from the plane, so no shader remembers where it has been.
+//! A [`Shader`] gives the state of a pixel from its place, [`Shader::at`], and from its left neighbour, [`Shader::step`]. Stepping
+//! adds a gradient modulo 2^32, which is exactly the plane's value at the next pixel; a row always begins from the plane,
+//! so nothing remembers where it has been.
 
 use crate::interpolate::{Plane, channel};
 use crate::lanes::{LANES, U16x8, U32x8};
@@ -11,158 +12,151 @@ use crate::setup::Triangle;
 use crate::shade::{FogWeights, blend, modulate};
 use crate::texture::{Sampler, TextureSetup, integer_q, reciprocal};
 
-/// Colours of fragments along a row.
+/// Colours of fragments.
 pub(super) trait Shader {
+    /// The attributes of a pixel.
+    type Pixel: Copy;
+    /// What eight pixels side by side share over the whole triangle.
+    type Ramps: Copy;
     /// Every fragment has the same colour.
     const CONSTANT: bool = false;
     /// Can give eight colours at a time.
     const SIDE_BY_SIDE: bool = false;
-    /// What eight colours share over the whole triangle.
-    type Ramps: Copy;
+
+    /// The attributes at (x, y).
+    fn at(&self, x: i32, y: i32) -> Self::Pixel;
+    /// Those `count` pixels further right.
+    fn step(&self, pixel: Self::Pixel, count: u32) -> Self::Pixel;
+    /// A pixel's colour.
+    fn colour(&self, pixel: &Self::Pixel) -> [u8; 3];
+
     /// Prepares for eight colours at a time.
     fn ramps(&self) -> Self::Ramps;
-    /// The colours here and of the next seven pixels to the right, channel by channel; only those whose bit in `pass` is
-    /// set need be right.
-    fn side_by_side(&self, _ramps: &Self::Ramps, _pass: u32) -> [U16x8; 3] {
+    /// The colours of a pixel and the next seven to the right, channel by channel; only those whose bit in `pass` is set
+    /// need be right.
+    fn side_by_side(&self, _: &Self::Ramps, _: &Self::Pixel, _pass: u32) -> [U16x8; 3] {
         [U16x8::splat(0); 3]
     }
-    /// Goes eight pixels to the right.
-    fn step_eight(&mut self) {}
-    /// Goes to pixel (x, y).
-    fn place(&mut self, x: i32, y: i32);
-    /// Goes one pixel to the right.
-    fn step(&mut self);
-    /// The colour here.
-    fn colour(&self) -> [u8; 3];
 }
 
-/// A plane that walks along a row.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Walk {
-    plane: Plane,
-    value: u32,
-}
-
-impl Walk {
-    pub(super) fn new(plane: Plane) -> Walk {
-        Walk { plane, value: 0 }
-    }
-    #[inline(always)]
-    fn place(&mut self, x: i32, y: i32) {
-        self.value = self.plane.at(x, y);
-    }
-    #[inline(always)]
-    fn step(&mut self) {
-        self.value = self.value.wrapping_add(self.plane.gx);
-    }
-    #[inline(always)]
-    fn step_eight(&mut self) {
-        self.value = self.value.wrapping_add(self.plane.gx.wrapping_mul(LANES as u32));
-    }
+/// The value of a plane `count` pixels further right.
+#[inline(always)]
+fn step(plane: &Plane, value: u32, count: u32) -> u32 {
+    value.wrapping_add(plane.gx.wrapping_mul(count))
 }
 
 /// One colour.
 pub(super) struct Flat(pub [u8; 3]);
 
 impl Shader for Flat {
+    type Pixel = ();
     type Ramps = ();
-    fn ramps(&self) {}
     const CONSTANT: bool = true;
     const SIDE_BY_SIDE: bool = true;
+
     #[inline(always)]
-    fn side_by_side(&self, _ramps: &(), _pass: u32) -> [U16x8; 3] {
-        self.0.map(|c| U16x8::splat(c as u16))
+    fn at(&self, _x: i32, _y: i32) {}
+    #[inline(always)]
+    fn step(&self, _: (), _count: u32) {}
+    #[inline(always)]
+    fn colour(&self, _: &()) -> [u8; 3] {
+        self.0
     }
     #[inline(always)]
-    fn place(&mut self, _x: i32, _y: i32) {}
+    fn ramps(&self) {}
     #[inline(always)]
-    fn step(&mut self) {}
-    #[inline(always)]
-    fn colour(&self) -> [u8; 3] {
-        self.0
+    fn side_by_side(&self, _: &(), _: &(), _pass: u32) -> [U16x8; 3] {
+        self.0.map(|c| U16x8::splat(c as u16))
     }
 }
 
 /// Colours interpolated linearly on the screen.
-pub(super) struct Gouraud([Walk; 3]);
+pub(super) struct Gouraud([Plane; 3]);
 
 impl Gouraud {
     pub(super) fn new(t: &Triangle, rgb: [[u8; 3]; 3]) -> Gouraud {
-        Gouraud(
-            [0, 1, 2]
-                .map(|i| Walk::new(t.plane([0, 1, 2].map(|k: usize| (rgb[k][i] as u32) << 16)))),
-        )
+        Gouraud([0, 1, 2].map(|i| t.plane([0, 1, 2].map(|k: usize| (rgb[k][i] as u32) << 16))))
     }
 }
 
 impl Shader for Gouraud {
-    const SIDE_BY_SIDE: bool = true;
+    type Pixel = [u32; 3];
     type Ramps = [U32x8; 3];
+    const SIDE_BY_SIDE: bool = true;
+
+    #[inline(always)]
+    fn at(&self, x: i32, y: i32) -> [u32; 3] {
+        [0, 1, 2].map(|i: usize| self.0[i].at(x, y))
+    }
+    #[inline(always)]
+    fn step(&self, pixel: [u32; 3], count: u32) -> [u32; 3] {
+        [0, 1, 2].map(|i| step(&self.0[i], pixel[i], count))
+    }
+    #[inline(always)]
+    fn colour(&self, pixel: &[u32; 3]) -> [u8; 3] {
+        pixel.map(channel)
+    }
     #[inline(always)]
     fn ramps(&self) -> [U32x8; 3] {
-        self.0.map(|walk| U32x8::ramp(0x8000, walk.plane.gx))
+        [0, 1, 2].map(|i: usize| U32x8::ramp(0x8000, self.0[i].gx))
     }
     #[inline(always)]
-    fn side_by_side(&self, ramps: &[U32x8; 3], _pass: u32) -> [U16x8; 3] {
+    fn side_by_side(&self, ramps: &[U32x8; 3], pixel: &[u32; 3], _pass: u32) -> [U16x8; 3] {
         let byte = U16x8::splat(0xff);
-        [0, 1, 2].map(|i| U32x8::splat(self.0[i].value).add(ramps[i]).high().and(byte))
-    }
-    #[inline(always)]
-    fn step_eight(&mut self) {
-        self.0.iter_mut().for_each(Walk::step_eight);
-    }
-    #[inline(always)]
-    fn place(&mut self, x: i32, y: i32) {
-        self.0.iter_mut().for_each(|w| w.place(x, y));
-    }
-    #[inline(always)]
-    fn step(&mut self) {
-        self.0.iter_mut().for_each(Walk::step);
-    }
-    #[inline(always)]
-    fn colour(&self) -> [u8; 3] {
-        [0, 1, 2].map(|i| channel(self.0[i].value))
+        [0, 1, 2].map(|i: usize| U32x8::splat(pixel[i]).add(ramps[i]).high().and(byte))
     }
 }
 
 /// Another shader's colour times a texel.
 pub(super) struct Textured<'a, S, T> {
-    inner: S,
-    sampler: T,
-    setup: TextureSetup<'a>,
-    q: Walk,
-    st: [Walk; 2],
-}
-
-impl<'a, S, T> Textured<'a, S, T> {
-    pub(super) fn new(inner: S, sampler: T, setup: TextureSetup<'a>, q: Plane) -> Self {
-        Textured { inner, sampler, setup, q: Walk::new(q), st: setup.st.map(Walk::new) }
-    }
+    pub inner: S,
+    pub sampler: T,
+    pub setup: TextureSetup<'a>,
+    pub q: Plane,
 }
 
 impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
+    /// The inner shader's, 1/w, s/w and t/w.
+    type Pixel = (S::Pixel, u32, [u32; 2]);
     type Ramps = S::Ramps;
+    const SIDE_BY_SIDE: bool = S::SIDE_BY_SIDE && T::RGB565;
+
+    #[inline(always)]
+    fn at(&self, x: i32, y: i32) -> Self::Pixel {
+        let [s, t] = &self.setup.st;
+        (self.inner.at(x, y), self.q.at(x, y), [s.at(x, y), t.at(x, y)])
+    }
+    #[inline(always)]
+    fn step(&self, (inner, q, [s, t]): Self::Pixel, count: u32) -> Self::Pixel {
+        let st = [step(&self.setup.st[0], s, count), step(&self.setup.st[1], t, count)];
+        (self.inner.step(inner, count), step(&self.q, q, count), st)
+    }
+    #[inline(always)]
+    fn colour(&self, (inner, q, st): &Self::Pixel) -> [u8; 3] {
+        let q = integer_q(*q);
+        modulate(self.sampler.texel(&self.setup, *st, q, reciprocal(q)), self.inner.colour(inner))
+    }
     #[inline(always)]
     fn ramps(&self) -> S::Ramps {
         self.inner.ramps()
     }
-    const SIDE_BY_SIDE: bool = S::SIDE_BY_SIDE && T::RGB565;
     #[inline(always)]
-    fn side_by_side(&self, ramps: &S::Ramps, pass: u32) -> [U16x8; 3] {
+    fn side_by_side(&self, ramps: &S::Ramps, pixel: &Self::Pixel, pass: u32) -> [U16x8; 3] {
+        let (inner, mut q, [mut s, mut t]) = *pixel;
         let mut texels = [0; LANES];
-        let mut rest = pass;
-        while rest != 0 {
-            let i = rest.trailing_zeros();
-            let at = |walk: &Walk| walk.value.wrapping_add(walk.plane.gx.wrapping_mul(i));
-            let q = integer_q(at(&self.q));
-            let st = [at(&self.st[0]), at(&self.st[1])];
-            texels[i as usize & 7] = self.sampler.texel565(&self.setup, st, reciprocal(q));
-            rest &= rest - 1;
+        for (i, texel) in texels.iter_mut().enumerate() {
+            if pass >> i & 1 != 0 {
+                let r = reciprocal(integer_q(q));
+                *texel = self.sampler.texel565(&self.setup, [s, t], r);
+            }
+            q = q.wrapping_add(self.q.gx);
+            s = s.wrapping_add(self.setup.st[0].gx);
+            t = t.wrapping_add(self.setup.st[1].gx);
         }
-        let (colours, p) = (self.inner.side_by_side(ramps, pass), U16x8::load(&texels));
+        let (colours, p) = (self.inner.side_by_side(ramps, &inner, pass), U16x8::load(&texels));
         // The same as `widen565` and `modulate`, in eight lanes.
-        let (r, g, b) =
-            (p.shr::<11>(), p.shr::<5>().and(U16x8::splat(63)), p.and(U16x8::splat(31)));
+        let (r, g) = (p.shr::<11>(), p.shr::<5>().and(U16x8::splat(63)));
+        let b = p.and(U16x8::splat(31));
         let wide = [
             r.shl::<3>().or(r.shr::<2>()),
             g.shl::<2>().or(g.shr::<4>()),
@@ -173,35 +167,11 @@ impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
             t.add(t.shr::<8>()).shr::<8>()
         })
     }
-    #[inline(always)]
-    fn step_eight(&mut self) {
-        self.inner.step_eight();
-        self.q.step_eight();
-        self.st.iter_mut().for_each(Walk::step_eight);
-    }
-    #[inline(always)]
-    fn place(&mut self, x: i32, y: i32) {
-        self.inner.place(x, y);
-        self.q.place(x, y);
-        self.st.iter_mut().for_each(|w| w.place(x, y));
-    }
-    #[inline(always)]
-    fn step(&mut self) {
-        self.inner.step();
-        self.q.step();
-        self.st.iter_mut().for_each(Walk::step);
-    }
-    #[inline(always)]
-    fn colour(&self) -> [u8; 3] {
-        let q = integer_q(self.q.value);
-        let st = [self.st[0].value, self.st[1].value];
-        modulate(self.sampler.texel(&self.setup, st, q, reciprocal(q)), self.inner.colour())
-    }
 }
 
 /// Three signed attributes divided by w, block floating point: `value = (plane - 2^31) r / 2^shift`.
 pub(super) struct Signed {
-    walks: [Walk; 3],
+    planes: [Plane; 3],
     shift: u32,
 }
 
@@ -211,82 +181,98 @@ impl Signed {
         let product = |k: usize, i: usize| values[k][i] as i64 * q[k] as i64;
         let largest = (0..9).map(|j| product(j / 3, j % 3).unsigned_abs()).max().unwrap_or(0);
         let drop = (64 - largest.leading_zeros()).saturating_sub(30);
-        let walks = [0, 1, 2].map(|i| {
+        let planes = [0, 1, 2].map(|i| {
             let biased = |k: usize| ((product(k, i) >> drop) + (1 << 31)) as u32;
-            Walk::new(t.plane([0, 1, 2].map(biased)))
+            t.plane([0, 1, 2].map(biased))
         });
-        Signed { walks, shift: 47 - drop }
+        Signed { planes, shift: 47 - drop }
     }
     #[inline(always)]
-    fn over_w(&self) -> [i32; 3] {
-        [0, 1, 2].map(|i| self.walks[i].value.wrapping_sub(1 << 31) as i32)
+    fn at(&self, x: i32, y: i32) -> [u32; 3] {
+        [0, 1, 2].map(|i: usize| self.planes[i].at(x, y))
     }
     #[inline(always)]
-    fn value(&self, r: u64) -> [i32; 3] {
-        self.over_w()
+    fn step(&self, values: [u32; 3], count: u32) -> [u32; 3] {
+        [0, 1, 2].map(|i| step(&self.planes[i], values[i], count))
+    }
+    #[inline(always)]
+    fn value(&self, values: [u32; 3], r: u64) -> [i32; 3] {
+        over_w(values)
             .map(|v| ((v as i128 * r as i128) >> self.shift).clamp(-(1 << 30), 1 << 30) as i32)
     }
 }
 
-/// Light at every pixel: normals and positions interpolated in perspective. The direction of a normal needs no
-/// division by 1/w.
+/// Signed plane values without their bias.
+#[inline(always)]
+fn over_w(values: [u32; 3]) -> [i32; 3] {
+    values.map(|v| v.wrapping_sub(1 << 31) as i32)
+}
+
+/// Light at every pixel: normals and positions interpolated in perspective. The direction of a normal needs no division by
+/// 1/w.
 pub(super) struct Phong<'a, S> {
     pub surface: S,
     pub lighting: &'a Lighting,
     pub normal: Signed,
     pub position: Signed,
-    pub q: Walk,
+    pub q: Plane,
 }
 
 impl<S: Shader> Shader for Phong<'_, S> {
+    /// The surface's, 1/w, normal/w and position/w.
+    type Pixel = (S::Pixel, u32, [u32; 3], [u32; 3]);
     type Ramps = ();
+
+    #[inline(always)]
+    fn at(&self, x: i32, y: i32) -> Self::Pixel {
+        (self.surface.at(x, y), self.q.at(x, y), self.normal.at(x, y), self.position.at(x, y))
+    }
+    #[inline(always)]
+    fn step(&self, (surface, q, normal, position): Self::Pixel, count: u32) -> Self::Pixel {
+        let (normal, position) =
+            (self.normal.step(normal, count), self.position.step(position, count));
+        (self.surface.step(surface, count), step(&self.q, q, count), normal, position)
+    }
+    fn colour(&self, (surface, q, normal, position): &Self::Pixel) -> [u8; 3] {
+        let n = normalise_q14(over_w(*normal));
+        // Where it falls is only asked for when light depends on it: that costs a division.
+        let mut p = [0; 3];
+        if self.lighting.needs_position() {
+            p = self.position.value(*position, reciprocal(integer_q(*q)));
+        }
+        self.lighting.lit(self.surface.colour(surface), n, p)
+    }
     fn ramps(&self) {}
-    #[inline(always)]
-    fn place(&mut self, x: i32, y: i32) {
-        self.surface.place(x, y);
-        self.q.place(x, y);
-        self.normal.walks.iter_mut().chain(&mut self.position.walks).for_each(|w| w.place(x, y));
-    }
-    #[inline(always)]
-    fn step(&mut self) {
-        self.surface.step();
-        self.q.step();
-        self.normal.walks.iter_mut().chain(&mut self.position.walks).for_each(Walk::step);
-    }
-    fn colour(&self) -> [u8; 3] {
-        let r = reciprocal(integer_q(self.q.value));
-        let n = normalise_q14(self.normal.over_w());
-        self.lighting.lit(self.surface.colour(), n, self.position.value(r))
-    }
 }
 
 /// Another shader's colour behind fog.
 pub(super) struct Fogged<'a, S> {
     pub inner: S,
     pub fog: &'a FogWeights,
-    pub q: Walk,
+    pub q: Plane,
     /// `w = r 2^-shift` in U16.16 world units.
     pub shift: i32,
 }
 
 impl<S: Shader> Shader for Fogged<'_, S> {
+    /// The inner shader's and 1/w.
+    type Pixel = (S::Pixel, u32);
     type Ramps = ();
+
+    #[inline(always)]
+    fn at(&self, x: i32, y: i32) -> Self::Pixel {
+        (self.inner.at(x, y), self.q.at(x, y))
+    }
+    #[inline(always)]
+    fn step(&self, (inner, q): Self::Pixel, count: u32) -> Self::Pixel {
+        (self.inner.step(inner, count), step(&self.q, q, count))
+    }
+    #[inline(always)]
+    fn colour(&self, (inner, q): &Self::Pixel) -> [u8; 3] {
+        let w = distance(reciprocal(integer_q(*q)), self.shift);
+        blend(self.inner.colour(inner), self.fog.colour, self.fog.weight(w))
+    }
     fn ramps(&self) {}
-    #[inline(always)]
-    fn place(&mut self, x: i32, y: i32) {
-        self.inner.place(x, y);
-        self.q.place(x, y);
-    }
-    #[inline(always)]
-    fn step(&mut self) {
-        self.inner.step();
-        self.q.step();
-    }
-    #[inline(always)]
-    fn colour(&self) -> [u8; 3] {
-        let w = distance(reciprocal(integer_q(self.q.value)), self.shift);
-        blend(self.inner.colour(), self.fog.colour, self.fog.weight(w))
-    }
 }
 
 /// `r 2^-shift`, saturating.

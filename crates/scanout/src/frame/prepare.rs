@@ -176,6 +176,17 @@ impl List<'_> {
     }
 }
 
+/// The top bit of a projected vertex's `inv_w`, which is always set; cleared it marks a vertex that must be lit.
+const UNMARKED: u32 = 1 << 31;
+
+/// Marks a triangle's vertices to be lit.
+#[inline]
+fn mark(vertices: &mut [Vertex], triangle: [u16; 3]) {
+    for i in triangle {
+        vertices[i as usize].inv_w &= !UNMARKED;
+    }
+}
+
 /// One object on its way through the first stages.
 struct ObjectPass<'a> {
     scene: &'a Scene<'a>,
@@ -189,7 +200,7 @@ struct ObjectPass<'a> {
 impl ObjectPass<'_> {
     fn run(&self, vertices: &mut [Vertex], list: &mut List) -> Result<(), PrepareError> {
         let lighting = lighting(self.scene, self.object);
-        self.transform(vertices, &lighting);
+        self.transform(vertices);
         match self.object.mode {
             Mode::Points => self.points(vertices, list),
             Mode::Wire => self.edges(vertices, list)?,
@@ -197,13 +208,20 @@ impl ObjectPass<'_> {
                 self.triangles(vertices, &lighting, Kind::Mask, list)?;
                 self.edges(vertices, list)?;
             }
-            _ => self.triangles(vertices, &lighting, Kind::Triangle, list)?,
+            _ => {
+                self.triangles(vertices, &lighting, Kind::Triangle, list)?;
+                if let (Mode::Gouraud, Normals::Vertex(normals)) =
+                    (self.object.mode, self.object.mesh.normals)
+                {
+                    self.light(vertices, normals, &lighting);
+                }
+            }
         }
         Ok(())
     }
 
-    /// Transform and light: positions to screen vertices.
-    fn transform(&self, vertices: &mut [Vertex], lighting: &Lighting) {
+    /// Transform: positions to screen vertices.
+    fn transform(&self, vertices: &mut [Vertex]) {
         let mesh = self.object.mesh;
         for (vertex, &position) in vertices.iter_mut().zip(mesh.positions) {
             *vertex = self.viewport.project(&self.clip.apply(position));
@@ -212,10 +230,15 @@ impl ObjectPass<'_> {
         for (vertex, &colour) in vertices.iter_mut().zip(mesh.colours) {
             vertex.rgb = modulate(colour, self.object.material.colour);
         }
-        if let (Mode::Gouraud, Normals::Vertex(normals)) = (self.object.mode, mesh.normals) {
-            for ((vertex, &normal), &position) in
-                vertices.iter_mut().zip(normals).zip(mesh.positions)
-            {
+    }
+
+    /// Light: the vertices that [`mark`] has marked, and those that could not be projected.
+    fn light(&self, vertices: &mut [Vertex], normals: &[[i16; 3]], lighting: &Lighting) {
+        for ((vertex, &normal), &position) in
+            vertices.iter_mut().zip(normals).zip(self.object.mesh.positions)
+        {
+            if vertex.inv_w & UNMARKED == 0 {
+                vertex.inv_w |= UNMARKED;
                 let (n, p) = lighting.local(normal, position);
                 vertex.rgb = lighting.lit(vertex.rgb, n, p);
             }
@@ -225,13 +248,14 @@ impl ObjectPass<'_> {
     /// Cull: triangles that can be seen. Most are dropped here, so this loop holds nothing but the tests.
     fn triangles(
         &self,
-        vertices: &[Vertex],
+        vertices: &mut [Vertex],
         lighting: &Lighting,
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
         let mesh = self.object.mesh;
         let one_sided = !self.object.material.two_sided;
+        let lit_later = self.object.mode == Mode::Gouraud;
         let mut back_facing = 0;
         for (i, &triangle) in mesh.triangles.iter().enumerate() {
             let [a, b, c] = triangle.map(usize::from);
@@ -241,6 +265,9 @@ impl ObjectPass<'_> {
             };
             if (a.flags | b.flags | c.flags) & CLIP != 0 {
                 self.keep_clipped(i, a.flags & b.flags & c.flags, kind, lighting, list)?;
+                if lit_later {
+                    mark(vertices, triangle);
+                }
                 continue;
             }
             let area = signed_area(&[[a.x, a.y], [b.x, b.y], [c.x, c.y]]);
@@ -251,7 +278,12 @@ impl ObjectPass<'_> {
             let low = [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y)];
             let high = [a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y)];
             match self.rows(low, high) {
-                Some(rows) => self.keep(i, kind as u8, rows, facing(area), lighting, list)?,
+                Some(rows) => {
+                    self.keep(i, kind as u8, rows, facing(area), lighting, list)?;
+                    if lit_later {
+                        mark(vertices, triangle);
+                    }
+                }
                 None => list.stats.outside += 1,
             }
         }

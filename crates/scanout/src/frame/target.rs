@@ -84,64 +84,63 @@ impl<F: PixelFormat> Target<'_, F> {
     }
 
     /// Depth, shade, output: a triangle's fragments.
-    pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, mut shader: S) {
+    pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
         if self.dither {
-            self.runs(t, |target, runs| target.fill_dithered(z, &mut shader, runs));
+            self.runs(t, |target, runs| target.fill_dithered(z, shader, runs));
         } else if lanes::AVAILABLE && S::SIDE_BY_SIDE && F::rgb565(&mut []).is_some() {
-            self.runs(t, |target, runs| target.fill_side_by_side(z, &mut shader, runs));
+            self.runs(t, |target, runs| target.fill_side_by_side(z, shader, runs));
         } else {
-            self.runs(t, |target, runs| target.fill_runs(z, &mut shader, runs));
+            self.runs(t, |target, runs| target.fill_runs(z, shader, runs));
         }
     }
 
     #[inline(never)]
-    fn fill_runs<S: Shader>(&mut self, z: &Plane, shader: &mut S, runs: &[Run]) {
-        let constant = F::encode(if S::CONSTANT { shader.colour() } else { [0; 3] });
+    fn fill_runs<S: Shader>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
+        let constant =
+            F::encode(if S::CONSTANT { shader.colour(&shader.at(0, 0)) } else { [0; 3] });
         for run in runs.iter().filter(|run| run.x0 < run.x1) {
             let (row, depths) = self.row(run.y);
             let depths = &mut depths[run.x0 as usize..run.x1 as usize];
             let mut value = z.at(run.x0, run.y);
-            shader.place(run.x0, run.y);
+            let mut pixel = shader.at(run.x0, run.y);
             F::visit(row, run.x0 as usize, depths, |_, stored| {
                 let pass = depth::test(stored, depth::round(value));
-                let pixel =
-                    pass.then(|| if S::CONSTANT { constant } else { F::encode(shader.colour()) });
+                let colour =
+                    || if S::CONSTANT { constant } else { F::encode(shader.colour(&pixel)) };
+                let colour = pass.then(colour);
                 value = value.wrapping_add(z.gx);
-                shader.step();
-                pixel
+                pixel = shader.step(pixel, 1);
+                colour
             });
         }
     }
 
     /// [`fill_runs`](Self::fill_runs) eight pixels at a time where the row has room for them, RGB565 only.
     #[inline(never)]
-    fn fill_side_by_side<S: Shader>(&mut self, z: &Plane, shader: &mut S, runs: &[Run]) {
-        let z_ramp = U32x8::ramp(0x8000, z.gx);
-        let ramps = shader.ramps();
+    fn fill_side_by_side<S: Shader>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
+        let (top, width) = (self.rows.start, self.width);
+        let Some(colours) = F::rgb565(self.colour) else { return };
+        let (z_ramp, ramps) = (U32x8::ramp(0x8000, z.gx), shader.ramps());
         for run in runs.iter().filter(|run| run.x0 < run.x1) {
-            let (row, depths) = self.row(run.y);
-            let Some(row) = F::rgb565(row) else { return };
-            let (first, last) = (run.x0 as usize, run.x1 as usize);
-            let (row, depths) = (&mut row[first..], &mut depths[first..]);
-            let mut x = 0;
+            let row = (run.y - top) as usize * width;
+            let here = row + run.x0 as usize..row + width;
+            let (eights, rest) = colours[here.clone()].as_chunks_mut::<LANES>();
+            let (depth_eights, depth_rest) = self.depth[here].as_chunks_mut::<LANES>();
             let mut value = z.at(run.x0, run.y);
-            let mut left = last - first;
-            shader.place(run.x0, run.y);
-            while let (Some(pixels), Some(stored)) =
-                (row[x..].first_chunk_mut::<LANES>(), depths[x..].first_chunk_mut::<LANES>())
-            {
+            let mut pixel = shader.at(run.x0, run.y);
+            let mut left = (run.x1 - run.x0) as usize;
+            for (eight, stored) in eights.iter_mut().zip(depth_eights) {
                 let old = U16x8::load(stored);
                 let new = U32x8::splat(value).add(z_ramp).high();
                 let pass = new.below(old).and(U16x8::first(left));
                 let bits = pass.bits();
                 if bits != 0 {
                     pass.select(new, old).store(stored);
-                    let [r, g, b] = shader.side_by_side(&ramps, bits);
-                    let rg = r
-                        .and(U16x8::splat(0xf8))
-                        .shl::<8>()
-                        .or(g.and(U16x8::splat(0xfc)).shl::<3>());
-                    pass.select(rg.or(b.shr::<3>()), U16x8::load(pixels)).store(pixels);
+                    let [r, g, b] = shader.side_by_side(&ramps, &pixel, bits);
+                    let r = r.and(U16x8::splat(0xf8)).shl::<8>();
+                    let g = g.and(U16x8::splat(0xfc)).shl::<3>();
+                    let rgb = r.or(g).or(b.shr::<3>());
+                    pass.select(rgb, U16x8::load(eight)).store(eight);
                 }
                 if left <= LANES {
                     left = 0;
@@ -149,33 +148,33 @@ impl<F: PixelFormat> Target<'_, F> {
                 }
                 left -= LANES;
                 value = value.wrapping_add(z.gx.wrapping_mul(LANES as u32));
-                shader.step_eight();
-                x += LANES;
+                pixel = shader.step(pixel, LANES as u32);
             }
-            for (pixel, stored) in row[x..].iter_mut().zip(&mut depths[x..]).take(left) {
+            // What remains at the end of the row.
+            for (colour, stored) in rest.iter_mut().zip(depth_rest).take(left) {
                 if depth::test(stored, depth::round(value)) {
-                    *pixel = Rgb565::encode(shader.colour());
+                    *colour = Rgb565::encode(shader.colour(&pixel));
                 }
                 value = value.wrapping_add(z.gx);
-                shader.step();
+                pixel = shader.step(pixel, 1);
             }
         }
     }
 
     #[inline(never)]
-    fn fill_dithered<S: Shader>(&mut self, z: &Plane, shader: &mut S, runs: &[Run]) {
+    fn fill_dithered<S: Shader>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
         for run in runs.iter().filter(|run| run.x0 < run.x1) {
             let (row, depths) = self.row(run.y);
             let depths = &mut depths[run.x0 as usize..run.x1 as usize];
             let mut value = z.at(run.x0, run.y);
-            shader.place(run.x0, run.y);
+            let mut pixel = shader.at(run.x0, run.y);
             F::visit(row, run.x0 as usize, depths, |i, stored| {
                 let pass = depth::test(stored, depth::round(value));
                 let x = run.x0 + i as i32;
-                let pixel = pass.then(|| F::encode_dithered(shader.colour(), x, run.y));
+                let colour = pass.then(|| F::encode_dithered(shader.colour(&pixel), x, run.y));
                 value = value.wrapping_add(z.gx);
-                shader.step();
-                pixel
+                pixel = shader.step(pixel, 1);
+                colour
             });
         }
     }

@@ -102,7 +102,7 @@ pub struct Run {
 }
 
 /// How many runs are handed over at once: enough for most triangles, small enough for a small stack.
-pub const BATCH: usize = 32;
+pub const BATCH: usize = 16;
 
 /// Gives the runs of a triangle row by row, from the top, in batches; only `rows` and columns `0..width`.
 pub fn spans(t: &Triangle, rows: Range<i32>, width: i32, emit: &mut dyn FnMut(&[Run])) {
