@@ -163,6 +163,16 @@ impl Triangle {
         }
     }
 
+    /// Whether edge values fit 16 bits at every pixel of the box and up to eight columns beside it.
+    ///
+    /// With a box of w x h pixels, |a| <= 16 (h + 1) and |b| <= 16 (w + 1), and every edge is zero somewhere in the box, so
+    /// |value| <= 16 (h + 1) (w + 9) + 16 (w + 1) (h + 1) + 1.
+    #[inline]
+    pub fn is_tiny(&self) -> bool {
+        let [w, h] = [0, 1].map(|i| (self.max[i] - self.min[i]) as i64 + 1);
+        self.small && h * (2 * w + 8) < 2047
+    }
+
     /// Whether the centre of pixel (x, y) is covered.
     #[inline]
     pub fn covers(&self, x: i32, y: i32) -> bool {

@@ -27,6 +27,8 @@ pub(super) trait Shader {
     fn at(&self, x: i32, y: i32) -> Self::Pixel;
     /// Those `count` pixels further right.
     fn step(&self, pixel: Self::Pixel, count: u32) -> Self::Pixel;
+    /// Those one row down.
+    fn down(&self, pixel: Self::Pixel) -> Self::Pixel;
     /// A pixel's colour.
     fn colour(&self, pixel: &Self::Pixel) -> [u8; 3];
 
@@ -45,6 +47,12 @@ fn step(plane: &Plane, value: u32, count: u32) -> u32 {
     value.wrapping_add(plane.gx.wrapping_mul(count))
 }
 
+/// The value of a plane one row down.
+#[inline(always)]
+fn down(plane: &Plane, value: u32) -> u32 {
+    value.wrapping_add(plane.gy)
+}
+
 /// One colour.
 pub(super) struct Flat(pub [u8; 3]);
 
@@ -58,6 +66,8 @@ impl Shader for Flat {
     fn at(&self, _x: i32, _y: i32) {}
     #[inline(always)]
     fn step(&self, _: (), _count: u32) {}
+    #[inline(always)]
+    fn down(&self, _: ()) {}
     #[inline(always)]
     fn colour(&self, _: &()) -> [u8; 3] {
         self.0
@@ -93,6 +103,10 @@ impl Shader for Gouraud {
         [0, 1, 2].map(|i| step(&self.0[i], pixel[i], count))
     }
     #[inline(always)]
+    fn down(&self, pixel: [u32; 3]) -> [u32; 3] {
+        [0, 1, 2].map(|i| down(&self.0[i], pixel[i]))
+    }
+    #[inline(always)]
     fn colour(&self, pixel: &[u32; 3]) -> [u8; 3] {
         pixel.map(channel)
     }
@@ -118,7 +132,7 @@ pub(super) struct Textured<'a, S, T> {
 impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
     /// The inner shader's, 1/w, s/w and t/w.
     type Pixel = (S::Pixel, u32, [u32; 2]);
-    type Ramps = S::Ramps;
+    type Ramps = (S::Ramps, [U32x8; 3]);
     const SIDE_BY_SIDE: bool = S::SIDE_BY_SIDE && T::RGB565;
 
     #[inline(always)]
@@ -132,26 +146,33 @@ impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
         (self.inner.step(inner, count), step(&self.q, q, count), st)
     }
     #[inline(always)]
+    fn down(&self, (inner, q, [s, t]): Self::Pixel) -> Self::Pixel {
+        let st = [down(&self.setup.st[0], s), down(&self.setup.st[1], t)];
+        (self.inner.down(inner), down(&self.q, q), st)
+    }
+    #[inline(always)]
     fn colour(&self, (inner, q, st): &Self::Pixel) -> [u8; 3] {
         let q = integer_q(*q);
         modulate(self.sampler.texel(&self.setup, *st, q, reciprocal(q)), self.inner.colour(inner))
     }
     #[inline(always)]
-    fn ramps(&self) -> S::Ramps {
-        self.inner.ramps()
+    fn ramps(&self) -> Self::Ramps {
+        let [s, t] = &self.setup.st;
+        (self.inner.ramps(), [&self.q, s, t].map(|plane| U32x8::ramp(0, plane.gx)))
     }
     #[inline(always)]
-    fn side_by_side(&self, ramps: &S::Ramps, pixel: &Self::Pixel, pass: u32) -> [U16x8; 3] {
-        let (inner, mut q, [mut s, mut t]) = *pixel;
+    fn side_by_side(&self, ramps: &Self::Ramps, pixel: &Self::Pixel, pass: u32) -> [U16x8; 3] {
+        let (ramps, own) = ramps;
+        let (inner, q, [s, t]) = *pixel;
+        let lanes = |value: u32, ramp: U32x8| U32x8::splat(value).add(ramp).to_array();
+        let (q, s, t) = (lanes(q, own[0]), lanes(s, own[1]), lanes(t, own[2]));
         let mut texels = [0; LANES];
-        for (i, texel) in texels.iter_mut().enumerate() {
-            if pass >> i & 1 != 0 {
-                let r = reciprocal(integer_q(q));
-                *texel = self.sampler.texel565(&self.setup, [s, t], r);
-            }
-            q = q.wrapping_add(self.q.gx);
-            s = s.wrapping_add(self.setup.st[0].gx);
-            t = t.wrapping_add(self.setup.st[1].gx);
+        let mut rest = pass;
+        while rest != 0 {
+            let i = rest.trailing_zeros() as usize & (LANES - 1);
+            let r = reciprocal(integer_q(q[i]));
+            texels[i] = self.sampler.texel565(&self.setup, [s[i], t[i]], r);
+            rest &= rest - 1;
         }
         let (colours, p) = (self.inner.side_by_side(ramps, &inner, pass), U16x8::load(&texels));
         // The same as `widen565` and `modulate`, in eight lanes.
@@ -196,6 +217,10 @@ impl Signed {
         [0, 1, 2].map(|i| step(&self.planes[i], values[i], count))
     }
     #[inline(always)]
+    fn down(&self, values: [u32; 3]) -> [u32; 3] {
+        [0, 1, 2].map(|i| down(&self.planes[i], values[i]))
+    }
+    #[inline(always)]
     fn value(&self, values: [u32; 3], r: u64) -> [i32; 3] {
         over_w(values)
             .map(|v| ((v as i128 * r as i128) >> self.shift).clamp(-(1 << 30), 1 << 30) as i32)
@@ -233,6 +258,11 @@ impl<S: Shader> Shader for Phong<'_, S> {
             (self.normal.step(normal, count), self.position.step(position, count));
         (self.surface.step(surface, count), step(&self.q, q, count), normal, position)
     }
+    #[inline(always)]
+    fn down(&self, (surface, q, normal, position): Self::Pixel) -> Self::Pixel {
+        let (normal, position) = (self.normal.down(normal), self.position.down(position));
+        (self.surface.down(surface), down(&self.q, q), normal, position)
+    }
     fn colour(&self, (surface, q, normal, position): &Self::Pixel) -> [u8; 3] {
         let n = normalise_q14(over_w(*normal));
         // Where it falls is only asked for when light depends on it: that costs a division.
@@ -266,6 +296,10 @@ impl<S: Shader> Shader for Fogged<'_, S> {
     #[inline(always)]
     fn step(&self, (inner, q): Self::Pixel, count: u32) -> Self::Pixel {
         (self.inner.step(inner, count), step(&self.q, q, count))
+    }
+    #[inline(always)]
+    fn down(&self, (inner, q): Self::Pixel) -> Self::Pixel {
+        (self.inner.down(inner), down(&self.q, q))
     }
     #[inline(always)]
     fn colour(&self, (inner, q): &Self::Pixel) -> [u8; 3] {

@@ -11,8 +11,37 @@ use crate::output::{PixelFormat, Rgb565};
 use crate::raster::line::{ClipRect, LineEnd, fill_cells};
 use crate::raster::triangle::{Run, spans, tiles};
 use crate::scene::Background;
-use crate::setup::Triangle;
+use crate::setup::{Edge, Triangle};
 use crate::shade::blend;
+
+/// Eight neighbours in memory.
+#[inline(always)]
+fn eight_at(memory: &mut [u16], at: usize) -> Option<&mut [u16; LANES]> {
+    memory.get_mut(at..at + LANES)?.first_chunk_mut()
+}
+
+/// Writes those of eight fragments that pass.
+#[inline(always)]
+fn write_eight<S: Shader>(
+    shader: &S,
+    ramps: &S::Ramps,
+    pixel: &S::Pixel,
+    pass: U16x8,
+    depth: U16x8,
+    depths: &mut [u16; LANES],
+    colours: &mut [u16; LANES],
+) {
+    let bits = pass.bits();
+    if bits == 0 {
+        return;
+    }
+    pass.select(depth, U16x8::load(depths)).store(depths);
+    let [r, g, b] = shader.side_by_side(ramps, pixel, bits);
+    let r = r.and(U16x8::splat(0xf8)).shl::<8>();
+    let g = g.and(U16x8::splat(0xfc)).shl::<3>();
+    let rgb = r.or(g).or(b.shr::<3>());
+    pass.select(rgb, U16x8::load(colours)).store(colours);
+}
 
 /// Colour and depth memory of the rows being drawn.
 pub(super) struct Target<'m, F: PixelFormat> {
@@ -88,6 +117,9 @@ impl<F: PixelFormat> Target<'_, F> {
         if self.dither {
             self.runs(t, |target, runs| target.fill_dithered(z, shader, runs));
         } else if lanes::AVAILABLE && S::SIDE_BY_SIDE && F::rgb565(&mut []).is_some() {
+            if self.traversal == Traversal::Spans && self.width >= LANES && t.is_tiny() {
+                return self.fill_strips(t, z, shader);
+            }
             self.runs(t, |target, runs| target.fill_side_by_side(z, shader, runs));
         } else {
             self.runs(t, |target, runs| target.fill_runs(z, shader, runs));
@@ -115,6 +147,41 @@ impl<F: PixelFormat> Target<'_, F> {
         }
     }
 
+    /// A tiny triangle in strips of eight columns, RGB565 only: no spans, edges are tested at every pixel.
+    #[inline(never)]
+    fn fill_strips<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
+        let (width, rows) = (self.width, self.rows.clone());
+        let Some(colours) = F::rgb565(self.colour) else { return };
+        let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
+        let (first, last) = (t.min[0].max(0), t.max[0].min(width as i32));
+        let (z_ramp, ramps) = (U32x8::ramp(0x8000, z.gx), shader.ramps());
+        let mut left = first;
+        while left < last && top < bottom {
+            // At the right border the strip begins further left: what is drawn twice is not nearer the second time.
+            let x = left.min((width - LANES) as i32);
+            let edge = |e: &Edge| U16x8::ramp(e.at(x, top) as u16, e.a as u16);
+            let mut edges = t.edges.each_ref().map(edge);
+            let down = t.edges.each_ref().map(|e| U16x8::splat(e.b as u16));
+            let (mut value, mut pixel) = (z.at(x, top), shader.at(x, top));
+            let mut at = (top - rows.start) as usize * width + x as usize;
+            for _ in top..bottom {
+                let inside = edges[0].or(edges[1]).or(edges[2]).not_negative();
+                let (Some(eight), Some(stored)) = (eight_at(colours, at), eight_at(self.depth, at))
+                else {
+                    return;
+                };
+                let new = U32x8::splat(value).add(z_ramp).high();
+                let pass = new.below(U16x8::load(stored)).and(inside);
+                write_eight(shader, &ramps, &pixel, pass, new, stored, eight);
+                edges = [0, 1, 2].map(|i| edges[i].add(down[i]));
+                value = value.wrapping_add(z.gy);
+                pixel = shader.down(pixel);
+                at += width;
+            }
+            left += LANES as i32;
+        }
+    }
+
     /// [`fill_runs`](Self::fill_runs) eight pixels at a time where the row has room for them, RGB565 only.
     #[inline(never)]
     fn fill_side_by_side<S: Shader>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
@@ -133,15 +200,7 @@ impl<F: PixelFormat> Target<'_, F> {
                 let old = U16x8::load(stored);
                 let new = U32x8::splat(value).add(z_ramp).high();
                 let pass = new.below(old).and(U16x8::first(left));
-                let bits = pass.bits();
-                if bits != 0 {
-                    pass.select(new, old).store(stored);
-                    let [r, g, b] = shader.side_by_side(&ramps, &pixel, bits);
-                    let r = r.and(U16x8::splat(0xf8)).shl::<8>();
-                    let g = g.and(U16x8::splat(0xfc)).shl::<3>();
-                    let rgb = r.or(g).or(b.shr::<3>());
-                    pass.select(rgb, U16x8::load(eight)).store(eight);
-                }
+                write_eight(shader, &ramps, &pixel, pass, new, stored, eight);
                 if left <= LANES {
                     left = 0;
                     break;

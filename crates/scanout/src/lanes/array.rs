@@ -28,6 +28,11 @@ impl U32x8 {
     pub fn add(self, other: Self) -> Self {
         Self(core::array::from_fn(|i| self.0[i].wrapping_add(other.0[i])))
     }
+    /// The lanes.
+    #[inline(always)]
+    pub fn to_array(self) -> [u32; LANES] {
+        self.0
+    }
     /// The upper halves.
     #[inline(always)]
     pub fn high(self) -> U16x8 {
@@ -55,6 +60,16 @@ impl U16x8 {
     #[cfg(test)]
     pub fn to_array(self) -> [u16; LANES] {
         self.0
+    }
+    /// `value + i step` in lane i, modulo 2^16.
+    #[inline(always)]
+    pub fn ramp(value: u16, step: u16) -> Self {
+        Self(core::array::from_fn(|i| value.wrapping_add(step.wrapping_mul(i as u16))))
+    }
+    /// A mask of the lanes whose top bit is clear: not negative as signed numbers.
+    #[inline(always)]
+    pub fn not_negative(self) -> Self {
+        Self(self.0.map(|v| if v >> 15 == 0 { 0xffff } else { 0 }))
     }
     /// A mask of the first `count` lanes.
     #[inline(always)]

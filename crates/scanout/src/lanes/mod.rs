@@ -39,6 +39,7 @@ mod tests {
             let wide = (sse2::U32x8::ramp(value, step), array::U32x8::ramp(value, step));
             let sum =
                 (wide.0.add(sse2::U32x8::splat(other)), wide.1.add(array::U32x8::splat(other)));
+            assert_eq!(sum.0.to_array(), sum.1.to_array());
             assert_eq!(sum.0.high().to_array(), sum.1.high().to_array());
             let a: [u16; 8] = core::array::from_fn(|_| random() as u16);
             let b: [u16; 8] = core::array::from_fn(|_| random() as u16);
@@ -50,6 +51,9 @@ mod tests {
             assert_eq!(s.0.or(s.1).to_array(), t.0.or(t.1).to_array());
             assert_eq!(s.0.below(s.1).to_array(), t.0.below(t.1).to_array());
             assert_eq!(s.0.below(s.1).bits(), t.0.below(t.1).bits());
+            assert_eq!(s.0.not_negative().to_array(), t.0.not_negative().to_array());
+            let (v, w) = (value as u16, step as u16);
+            assert_eq!(sse2::U16x8::ramp(v, w).to_array(), array::U16x8::ramp(v, w).to_array());
             assert_eq!(s.0.shl::<3>().to_array(), t.0.shl::<3>().to_array());
             assert_eq!(s.0.shr::<5>().to_array(), t.0.shr::<5>().to_array());
             for count in 0..10 {

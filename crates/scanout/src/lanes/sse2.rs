@@ -46,6 +46,18 @@ impl U32x8 {
     pub fn add(self, other: Self) -> Self {
         sse2!(Self([_mm_add_epi32(self.0[0], other.0[0]), _mm_add_epi32(self.0[1], other.0[1])]))
     }
+    /// The lanes.
+    #[inline(always)]
+    pub fn to_array(self) -> [u32; LANES] {
+        let mut lanes = [0; LANES];
+        let (low, high) = lanes.split_at_mut(LANES / 2);
+        // SAFETY: each half is the 16 bytes that are written; the instruction asks no alignment.
+        unsafe {
+            _mm_storeu_si128(low.as_mut_ptr().cast(), self.0[0]);
+            _mm_storeu_si128(high.as_mut_ptr().cast(), self.0[1]);
+        }
+        lanes
+    }
     /// The upper halves. A signed shift leaves them in range of the pack, which keeps their bits.
     #[inline(always)]
     pub fn high(self) -> U16x8 {
@@ -79,6 +91,23 @@ impl U16x8 {
         let mut lanes = [0; LANES];
         self.store(&mut lanes);
         lanes
+    }
+    /// `value + i step` in lane i, modulo 2^16.
+    #[inline(always)]
+    pub fn ramp(value: u16, step: u16) -> Self {
+        sse2!({
+            let lane = _mm_set_epi16(7, 6, 5, 4, 3, 2, 1, 0);
+            let ramp = _mm_mullo_epi16(_mm_set1_epi16(step as i16), lane);
+            Self(_mm_add_epi16(_mm_set1_epi16(value as i16), ramp))
+        })
+    }
+    /// A mask of the lanes whose top bit is clear: not negative as signed numbers.
+    #[inline(always)]
+    pub fn not_negative(self) -> Self {
+        sse2!({
+            let zero = _mm_setzero_si128();
+            Self(_mm_cmpeq_epi16(_mm_srai_epi16::<15>(self.0), zero))
+        })
     }
     /// A mask of the first `count` lanes.
     #[inline(always)]
