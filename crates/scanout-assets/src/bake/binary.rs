@@ -307,7 +307,7 @@ impl<'a> BakedMesh<'a> {
 
 /// `count` elements at byte `offset`, if they lie in `bytes` and are aligned.
 fn slice<T: AnyBitPattern>(bytes: &[u8], offset: usize, count: usize) -> Option<&[T]> {
-    if offset % 4 != 0 {
+    if !offset.is_multiple_of(4) {
         return None;
     }
     let size = count.checked_mul(size_of::<T>())?;
