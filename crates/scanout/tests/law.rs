@@ -57,7 +57,7 @@ fn every_mode_in_every_order() {
             m.two_sided = variant == 2;
             let mut first = object(&mesh, &m, mode);
             (first.smooth_lines, first.point_size) = (variant == 1, 1 + 3 * variant as u8);
-            // The second object's own material: another texture, of the kind that is fetched by masks.
+            // The second object's own material: another texture, of the kind that is fetched the short way.
             let mut other = m;
             other.texture = (variant > 0).then_some(&small);
             let mut second = first;
@@ -115,8 +115,8 @@ fn clipped_scenes() {
 /// RGB565 is drawn eight pixels at a time where the machine can, RGB888 one at a time: the first is the second, encoded.
 #[test]
 fn eight_at_a_time_is_one_at_a_time() {
-    let texels: Vec<u16> = (0..32 * 32).map(|i| (i * 40503) as u16).collect();
-    let texture = Texture::new(32, 32, Texels::Rgb565(&texels)).unwrap();
+    let texels: Vec<u16> = (0..32 * 27).map(|i| (i * 40503) as u16).collect();
+    let texture = Texture::new(32, 27, Texels::Rgb565(&texels)).unwrap();
     for (segments, rings) in [(5, 4), (16, 12), (60, 40)] {
         let mesh_data = sphere(segments, rings);
         let mesh = mesh_data.mesh();
