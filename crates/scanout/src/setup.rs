@@ -71,10 +71,10 @@ pub struct Triangle {
     pub small: bool,
     /// |A|, 1/256 pixel^2.
     pub area: i64,
-    d1: [i64; 2],
-    d2: [i64; 2],
-    origin: [i64; 2],
-    extra_bits: u32,
+    /// The first corner.
+    origin: [i32; 2],
+    /// The largest size of a coordinate.
+    reach: u32,
 }
 
 /// Twice the area with its sign, 1/256 pixel^2: positive for clockwise corners on the screen. Coordinates within +-2^29.
@@ -103,22 +103,30 @@ impl Triangle {
         let high = |i: usize| v[0][i].max(v[1][i]).max(v[2][i]);
         let (min, max) = ([low(0), low(1)], [high(0), high(1)]);
         let reach = (-min[0]).max(-min[1]).max(max[0]).max(max[1]).max(0) as u32;
-        let relative = |p: [i32; 2]| [0, 1].map(|i| (p[i] as i64 - v[0][i] as i64) * sign);
+        let edges =
+            [Edge::new(v[0], v[1], sign), Edge::new(v[1], v[2], sign), Edge::new(v[2], v[0], sign)];
         Some(Triangle {
-            edges: [
-                Edge::new(v[0], v[1], sign),
-                Edge::new(v[1], v[2], sign),
-                Edge::new(v[2], v[0], sign),
-            ],
+            edges,
             min: min.map(first_pixel),
             max: max.map(first_pixel),
             small: reach < 1 << 15,
             area: area * sign,
-            d1: relative(v[1]),
-            d2: relative(v[2]),
-            origin: v[0].map(i64::from),
-            extra_bits: (32 - (reach >> 4).leading_zeros()).saturating_sub(11),
+            origin: v[0],
+            reach,
         })
+    }
+
+    /// `v1 - v0` and `v2 - v0`, times the sign of the area: what the first and last edge are made of.
+    #[inline(always)]
+    fn sides(&self) -> [[i64; 2]; 2] {
+        let [first, _, last] = &self.edges;
+        [[first.b, -first.a], [-last.b, last.a]]
+    }
+
+    /// From the first corner to the centre of pixel (0, 0).
+    #[inline(always)]
+    fn to_origin(&self) -> [i64; 2] {
+        self.origin.map(|v| 8 - v as i64)
     }
 
     /// The plane through three values, one a corner, in the attribute's own format; see
@@ -137,10 +145,10 @@ impl Triangle {
         let half = self.area >> 1;
         // Floor of n / area: the truncated quotient, less one where the remainder is negative.
         let floor = |n: i64| n / self.area + ((n % self.area) >> 63);
-        let gx = floor((da1 * self.d2[1] - da2 * self.d1[1]) * 16 + half);
-        let gy = floor((self.d1[0] * da2 - self.d2[0] * da1) * 16 + half);
-        let offset =
-            gx.wrapping_mul(8 - self.origin[0]).wrapping_add(gy.wrapping_mul(8 - self.origin[1]));
+        let ([d1, d2], [ox, oy]) = (self.sides(), self.to_origin());
+        let gx = floor((da1 * d2[1] - da2 * d1[1]) * 16 + half);
+        let gy = floor((d1[0] * da2 - d2[0] * da1) * 16 + half);
+        let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
         Plane { c: a[0].wrapping_add((offset >> 4) as u32), gx: gx as u32, gy: gy as u32 }
     }
 
@@ -148,13 +156,14 @@ impl Triangle {
     #[cold]
     fn wide_plane(&self, a0: u32, da1: i64, da2: i64) -> Plane {
         let wide = |v: i64| v as i128;
-        let (e, area) = (self.extra_bits, wide(self.area));
+        let e = (32 - (self.reach >> 4).leading_zeros()).saturating_sub(11);
+        let area = wide(self.area);
+        let ([d1, d2], [ox, oy]) = (self.sides().map(|d| d.map(wide)), self.to_origin().map(wide));
+        let (da1, da2) = (wide(da1), wide(da2));
         let quotient = |n: i128| ((n << (4 + e)) + (area >> 1)).div_euclid(area);
-        let gx = quotient(wide(da1) * wide(self.d2[1]) - wide(da2) * wide(self.d1[1]));
-        let gy = quotient(wide(self.d1[0]) * wide(da2) - wide(self.d2[0]) * wide(da1));
-        let offset = gx
-            .wrapping_mul(wide(8 - self.origin[0]))
-            .wrapping_add(gy.wrapping_mul(wide(8 - self.origin[1])));
+        let gx = quotient(da1 * d2[1] - da2 * d1[1]);
+        let gy = quotient(d1[0] * da2 - d2[0] * da1);
+        let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
         let half = (1i128 << e) >> 1;
         Plane {
             c: a0.wrapping_add((offset >> (4 + e)) as u32),
