@@ -1,5 +1,6 @@
 //! From floating-point polygons to fixed-point parts: one quantisation grid, triangles, deduplicated vertices, edges.
 
+use crate::closed;
 use crate::error::{At, LoadError, LoadErrorKind};
 use crate::load::{LoadOptions, NormalSource};
 use crate::model::{MeshBuf, Model, NormalsBuf, Part, Placement, Stats};
@@ -60,7 +61,9 @@ pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Mo
         parts.cloud(options);
     }
     let Parts { parts, tangled, .. } = parts;
-    let Raw { mut warnings, images, .. } = raw;
+    drop((grid, normals));
+    // What remains of the raw model is freed here.
+    let (mut warnings, images) = (|Raw { warnings, images, .. }: Raw| (warnings, images))(raw);
     warnings.counted(stats.degenerate, "triangles without area were dropped");
     warnings.counted(tangled, "polygons that cross themselves were cut as well as possible");
     stats.triangles = parts.iter().map(|p| p.mesh.triangles.len() as u64).sum();
@@ -73,7 +76,8 @@ pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Mo
             what: "nothing to draw: every face is degenerate; check the export".into(),
         });
     }
-    Ok(Model { parts, images, placement, warnings: warnings.0, stats })
+    let closed = closed::is_closed(&parts);
+    Ok(Model { parts, images, placement, closed, warnings: warnings.0, stats })
 }
 
 /// The grid: the centre of the bounding box at 0, the longest half side at [`RANGE`].

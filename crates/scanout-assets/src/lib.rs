@@ -30,6 +30,8 @@ pub mod ppm;
 #[cfg(feature = "std")]
 mod assemble;
 #[cfg(feature = "std")]
+mod closed;
+#[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
 mod image;

@@ -165,6 +165,10 @@ pub struct Model {
     pub images: Vec<Image>,
     /// From mesh positions back to the file's coordinates, for all parts.
     pub placement: Placement,
+    /// The triangles of all parts enclose a volume: each edge, by the positions of its ends, belongs to exactly two
+    /// triangles, and these run along it in opposite directions. From outside no back face of such a model is seen; others
+    /// (sheets, shells with holes, surfaces of mixed winding) need both sides drawn. False without triangles.
+    pub closed: bool,
     /// Everything that was not as it should be.
     pub warnings: Vec<Warning>,
     /// Counts.
