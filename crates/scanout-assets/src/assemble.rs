@@ -1,9 +1,9 @@
 //! From floating-point polygons to fixed-point parts: one quantisation grid, triangles, deduplicated vertices, edges.
 
 use crate::closed;
-use crate::error::{At, LoadError, LoadErrorKind};
+use crate::error::{At, LoadError, LoadErrorKind, Warnings};
 use crate::load::{LoadOptions, NormalSource};
-use crate::model::{MeshBuf, Model, NormalsBuf, Part, Placement, Stats};
+use crate::model::{Image, MeshBuf, Model, NormalsBuf, Part, Placement, Stats};
 use crate::normals::{corner_normals, to_q14, unit};
 use crate::raw::{NONE, Raw};
 use crate::triangulate::triangulate;
@@ -62,8 +62,7 @@ pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Mo
     }
     let Parts { parts, tangled, .. } = parts;
     drop((grid, normals));
-    // What remains of the raw model is freed here.
-    let (mut warnings, images) = (|Raw { warnings, images, .. }: Raw| (warnings, images))(raw);
+    let (mut warnings, images) = leftovers(raw);
     warnings.counted(stats.degenerate, "triangles without area were dropped");
     warnings.counted(tangled, "polygons that cross themselves were cut as well as possible");
     stats.triangles = parts.iter().map(|p| p.mesh.triangles.len() as u64).sum();
@@ -78,6 +77,11 @@ pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Mo
     }
     let closed = closed::is_closed(&parts);
     Ok(Model { parts, images, placement, closed, warnings: warnings.0, stats })
+}
+
+/// Frees the rest.
+fn leftovers(raw: Raw) -> (Warnings, Vec<Image>) {
+    (raw.warnings, raw.images)
 }
 
 /// The grid: the centre of the bounding box at 0, the longest half side at [`RANGE`].

@@ -7,19 +7,26 @@ use std::fmt::{self, Write};
 /// The format document that is written beside the tables.
 pub const HEX_README: &str = include_str!("hex_readme.md");
 
-/// The model does not fit into tables with 16-bit indices.
+/// The model does not fit into the tables, whose indices are 16 bits wide, 8 bits for materials and textures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HexError {
     /// What there is too much of.
     pub what: &'static str,
     /// How many there are.
     pub count: usize,
+    /// How many the tables hold.
+    pub limit: usize,
 }
 
 impl fmt::Display for HexError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { what, count } = self;
-        write!(f, "{count} {what} are more than 16-bit indices reach; simplify the mesh")
+        let Self { what, count, limit } = self;
+        let remedy = match *what {
+            "materials" => "join materials",
+            "textures" => "join textures",
+            _ => "simplify the mesh",
+        };
+        write!(f, "{count} {what}, and the .hex tables hold at most {limit}; {remedy}")
     }
 }
 
@@ -38,10 +45,18 @@ struct Tables {
     edges: Vec<[usize; 2]>,
 }
 
+/// Whether [`hex_files`] will succeed: for a word before anything is written.
+///
+/// # Errors
+/// As [`hex_files`].
+pub fn check_hex(model: &Model) -> Result<(), HexError> {
+    collect(model).map(drop)
+}
+
 /// The tables as file names and contents, `README.md` and `mesh.svh` among them. Tables that would be empty are left out.
 ///
 /// # Errors
-/// [`HexError`] when vertices, texture coordinates or parts exceed their index.
+/// [`HexError`] when vertices, texture coordinates, materials (one a part) or textures exceed their index.
 pub fn hex_files(model: &Model) -> Result<Vec<(String, String)>, HexError> {
     let tables = collect(model)?;
     let per_triangle = one_a_triangle(model);
@@ -184,7 +199,7 @@ fn collect(model: &Model) -> Result<Tables, HexError> {
         ("textures", model.images.len(), 255),
     ];
     match limits.into_iter().find(|(_, count, limit)| count > limit) {
-        Some((what, count, _)) => Err(HexError { what, count }),
+        Some((what, count, limit)) => Err(HexError { what, count, limit }),
         None => Ok(all),
     }
 }

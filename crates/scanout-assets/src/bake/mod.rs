@@ -51,7 +51,7 @@ mod write;
 
 pub use binary::{Aligned, BakeError, BakedMesh, BakedPart, read};
 #[cfg(feature = "std")]
-pub use hex::{HEX_README, HexError, hex_files};
+pub use hex::{HEX_README, HexError, check_hex, hex_files};
 #[cfg(feature = "std")]
 pub use write::{to_binary, write_binary, write_hex};
 

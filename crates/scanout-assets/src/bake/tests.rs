@@ -196,8 +196,36 @@ fn a_mixed_model_gets_a_vertex_for_every_normal() {
 }
 
 #[test]
-fn too_large_a_model_is_refused() {
-    let mut model = model();
-    model.parts = vec![model.parts[0].clone(); 257];
-    assert_eq!(hex_files(&model).unwrap_err(), HexError { what: "materials", count: 257 });
+fn too_large_a_model_is_refused_with_its_own_limit_and_leaves_nothing() {
+    let mut materials = model();
+    materials.parts = vec![materials.parts[0].clone(); 257];
+    let error = hex_files(&materials).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "257 materials, and the .hex tables hold at most 256; join materials"
+    );
+    assert_eq!(check_hex(&materials), Err(error));
+    let mut vertices = model();
+    let mut large = vertices.parts[1].clone();
+    large.mesh.positions.resize(40_000, [0; 3]);
+    large.mesh.colours.resize(40_000, [0; 3]);
+    large.mesh.normals = crate::NormalsBuf::Vertex(vec![[0, 0, 16384]; 40_000]);
+    vertices.parts = vec![large.clone(), large];
+    let text = "80000 vertices, and the .hex tables hold at most 65536; simplify the mesh";
+    assert_eq!(check_hex(&vertices).unwrap_err().to_string(), text);
+    // The binary holds parts of its own.
+    let binary = to_binary(&vertices).unwrap();
+    with(&binary, |baked| assert_eq!(baked.unwrap().part_count(), 2));
+    let folder = std::env::temp_dir().join(format!("scanout-bake-{}", std::process::id()));
+    let error = write_hex(&vertices, &folder).unwrap_err();
+    assert_eq!(
+        (error.kind(), error.to_string().as_str()),
+        (std::io::ErrorKind::InvalidInput, text)
+    );
+    assert!(!folder.exists());
+    // A table that can't be written: those before it go.
+    std::fs::create_dir_all(folder.join("triangles.hex")).unwrap();
+    assert!(write_hex(&model(), &folder).is_err());
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
+    std::fs::remove_dir_all(&folder).unwrap();
 }

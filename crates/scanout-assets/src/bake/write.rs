@@ -2,7 +2,8 @@
 
 use super::{HEADER, MAGIC, NO_TEXTURE, PART, TEXTURE, VERSION, crc32, hex};
 use crate::model::{Model, NormalsBuf, Part};
-use std::io::{self, ErrorKind};
+use std::fs::File;
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The `.mesh` binary of a model; textures as RGB565, with the mip levels that the images have.
@@ -43,18 +44,31 @@ pub fn to_binary(model: &Model) -> io::Result<Vec<u8>> {
     Ok(out)
 }
 
-/// Writes [`to_binary`] to a file.
+/// Writes [`to_binary`] to a file. Models of any number of vertices fit: parts are split where 16-bit indices end.
 ///
 /// # Errors
-/// As [`to_binary`], and whatever the operating system says.
+/// As [`to_binary`], and whatever the operating system says; an incomplete file is removed.
 pub fn write_binary(model: &Model, path: impl AsRef<Path>) -> io::Result<()> {
-    std::fs::write(path, to_binary(model)?)
+    write_file(path.as_ref(), &to_binary(model)?)
+}
+
+/// As `std::fs::write`, but leaves no part of a file when the disk is full.
+fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes).inspect_err(|_| {
+        // Not a device.
+        if path.is_file() {
+            let _ = std::fs::remove_file(path);
+        }
+    })
 }
 
 /// Writes the `.hex` tables, `mesh.svh` and `README.md` into a folder, which is made when missing; returns the files.
 ///
 /// # Errors
-/// [`io::ErrorKind::InvalidInput`] when the model is too large for 16-bit indices; whatever the operating system says.
+/// [`io::ErrorKind::InvalidInput`] with [`super::HexError`]'s text and remedy, before anything is written, when the model
+/// does not fit ([`super::check_hex`] says so without writing); whatever the operating system says, after removing what
+/// was written.
 pub fn write_hex(model: &Model, folder: impl AsRef<Path>) -> io::Result<Vec<PathBuf>> {
     let files =
         hex::hex_files(model).map_err(|error| io::Error::new(ErrorKind::InvalidInput, error))?;
@@ -62,7 +76,10 @@ pub fn write_hex(model: &Model, folder: impl AsRef<Path>) -> io::Result<Vec<Path
     let mut written = Vec::new();
     for (name, text) in files {
         let path = folder.as_ref().join(name);
-        std::fs::write(&path, text)?;
+        if let Err(error) = write_file(&path, text.as_bytes()) {
+            written.iter().for_each(|path| drop(std::fs::remove_file(path)));
+            return Err(error);
+        }
         written.push(path);
     }
     Ok(written)
