@@ -1,6 +1,6 @@
 //! Moving pictures: GIF with a palette for each frame, APNG, or a folder of PNGs.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ pub enum Container {
 
 /// The container for `path`: `-` and `.gif` are GIF, `.png` and `.apng` APNG, a name without ending a folder.
 pub fn container_for(path: &Path) -> Result<Container> {
-    if image_out::is_dash(path) {
+    if image_out::is_dash(path) || image_out::is_discard(path) {
         return Ok(Container::Gif);
     }
     match image_out::ending(path).as_str() {
@@ -76,7 +76,10 @@ impl Writer {
         let kind = match container_for(path)? {
             Container::Gif => Self::gif(image_out::open(path)?, size),
             Container::Apng => Self::apng(path, size, frames, fps),
-            Container::Folder => fs::create_dir_all(path).map(|()| Kind::Folder(0)),
+            Container::Folder => {
+                image_out::create_folder(path, "end the name in .gif or .png, or name a folder")?;
+                Ok(Kind::Folder(0))
+            }
         };
         let kind = kind.map_err(|error| Error::io(path, &error))?;
         Ok(Self { path: path.into(), kind })

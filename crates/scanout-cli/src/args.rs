@@ -257,10 +257,10 @@ pub struct RenderArgs {
     /// Print counts, times and the hash as JSON
     #[arg(long)]
     pub json: bool,
-    /// Compare with this PNG or PPM: exit 1 and a difference picture when not equal
+    /// Compare with this PNG or PPM: exit 1 and a difference picture when not equal; --json tells it too
     #[arg(long, value_name = "FILE", visible_alias = "ref", value_hint = ValueHint::FilePath)]
     pub reference: Option<PathBuf>,
-    /// Where the difference picture goes [default: beside OUT, *.difference.png]
+    /// Where the difference picture goes, .png, .ppm or .raw; removed when equal [default: beside OUT as *.difference.png, without OUT here with the name of the reference]
     #[arg(long, value_name = "FILE", requires = "reference", value_hint = ValueHint::FilePath)]
     pub difference: Option<PathBuf>,
     /// The scene.

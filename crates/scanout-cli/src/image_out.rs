@@ -1,6 +1,6 @@
 //! Pictures in files: PNG, PPM (P6) and raw, to a file or to standard output.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
@@ -47,6 +47,27 @@ pub fn is_dash(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
+/// Is this where bytes go to vanish?
+pub fn is_discard(path: &Path) -> bool {
+    path.as_os_str() == "/dev/null"
+}
+
+/// Do both names mean one file that exists? Devices and standard output are no files.
+pub fn same_file(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| path.canonicalize().ok().filter(|path| path.is_file());
+    !is_dash(a) && !is_dash(b) && (a == b || real(a).is_some_and(|a| Some(a) == real(b)))
+}
+
+/// Makes a folder and those above it, unless it is there.
+pub fn create_folder(path: &Path, remedy: &str) -> Result<()> {
+    fs::create_dir_all(path).map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
+            Error::failed(path.display(), "is not a folder", remedy)
+        }
+        _ => Error::io(path, &error),
+    })
+}
+
 /// A file or standard output, buffered.
 pub fn open(path: &Path) -> Result<Box<dyn Write>> {
     if is_dash(path) {
@@ -68,6 +89,9 @@ pub fn format_for(path: &Path, forced: Option<OutputFormat>) -> Result<OutputFor
     }
     if is_dash(path) {
         return Ok(OutputFormat::Png);
+    }
+    if is_discard(path) {
+        return Ok(OutputFormat::Raw);
     }
     match ending(path).as_str() {
         "png" => Ok(OutputFormat::Png),
@@ -154,5 +178,6 @@ mod tests {
         assert_eq!(of("-"), Some(OutputFormat::Png));
         assert_eq!(of("x.y/a.ppm"), Some(OutputFormat::Ppm));
         assert_eq!(of("a.jpg"), None);
+        assert_eq!(of("/dev/null"), Some(OutputFormat::Raw));
     }
 }

@@ -276,3 +276,73 @@ fn baking_writes_the_binary_and_the_tables() {
     assert!(std::fs::read(folder.join("cube.mesh")).unwrap().starts_with(b"SCNM"));
     assert!(folder.join("README.md").is_file());
 }
+
+#[test]
+fn a_reference_is_never_overwritten() {
+    let path = scratch("kept.png");
+    let name = path.to_str().unwrap();
+    assert!(render(&["-o", name]).status.success());
+    let before = std::fs::read(&path).unwrap();
+    let folder = path.parent().unwrap();
+    let detour = folder.join("..").join(folder.file_name().unwrap()).join("kept.png");
+    for other in [name, detour.to_str().unwrap()] {
+        let output = render(&["--azimuth", "50", "-o", other, "--reference", name]);
+        assert_eq!(output.status.code(), Some(2), "{other}");
+        one_line(&stderr(&output));
+        let output = render(&["--azimuth", "50", "--difference", other, "--reference", name]);
+        assert_eq!(output.status.code(), Some(2), "{other}");
+    }
+    assert_eq!(std::fs::read(&path).unwrap(), before);
+}
+
+#[test]
+fn a_difference_obeys_its_name_and_goes_away_when_equal() {
+    let (reference, difference) = (scratch("plain.png"), scratch("plain.seen.ppm"));
+    let (reference, seen) = (reference.to_str().unwrap(), difference.to_str().unwrap());
+    assert!(render(&["-o", reference]).status.success());
+    let line = ["--reference", reference, "--difference", seen, "--json"];
+    let unequal = render(&[&line[..], &["--azimuth", "31"]].concat());
+    assert_eq!(unequal.status.code(), Some(1));
+    assert!(std::fs::read(&difference).unwrap().starts_with(b"P6"));
+    let value: serde_json::Value = serde_json::from_slice(&unequal.stdout).unwrap();
+    assert_eq!(value["reference"]["equal"], false);
+    assert!(value["reference"]["different_pixels"].as_u64() > Some(0));
+
+    let equal = render(&line);
+    assert_eq!(equal.status.code(), Some(0));
+    assert!(!difference.exists(), "a stale difference stays");
+    let value: serde_json::Value = serde_json::from_slice(&equal.stdout).unwrap();
+    assert_eq!(value["reference"]["equal"], true);
+    assert_eq!(value["reference"]["different_pixels"], 0);
+    let jpeg = render(&["--reference", reference, "--difference", "a.jpg"]);
+    assert_eq!(jpeg.status.code(), Some(2));
+}
+
+#[test]
+fn a_file_where_a_folder_should_be() {
+    let file = scratch("no-folder");
+    std::fs::write(&file, "").unwrap();
+    let (name, cube) = (file.to_str().unwrap(), model("cube.obj"));
+    for line in [
+        ["bake", &cube, "-o", name].as_slice(),
+        &["turntable", &cube, "-o", name, "--frames", "2"],
+        &["demo", "--no-window", "-o", name],
+    ] {
+        let output = run(line);
+        assert_eq!(output.status.code(), Some(1));
+        let told = stderr(&output).lines().last().unwrap_or_default().to_string();
+        assert!(told.contains("is not a folder"), "{told}");
+    }
+    let output = run(&["bake", &cube, "-o", "-"]);
+    assert_eq!(output.status.code(), Some(2));
+    one_line(&stderr(&output));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_null_device_takes_everything() {
+    assert!(render(&["-o", "/dev/null"]).status.success());
+    let cube = model("cube.obj");
+    let line = ["turntable", &cube, "-o", "/dev/null", "--frames", "2", "--resolution", "40,30"];
+    assert!(run(&line).status.success());
+}

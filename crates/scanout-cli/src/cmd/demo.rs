@@ -1,6 +1,5 @@
 //! `scanout` alone: shows what the pipeline does, on whatever there is.
 
-use std::fs;
 use std::path::Path;
 
 use scanout_assets::Model;
@@ -10,7 +9,7 @@ use crate::cmd::info::scene_args;
 use crate::cmd::turntable::{self, Turn};
 use crate::cmd::view::Viewer;
 use crate::draw::{self, Frame, Options};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::image_out;
 use crate::scene_builder::Stage;
 use crate::scene_builder::view::Fit;
@@ -36,7 +35,7 @@ pub fn run(args: &DemoArgs) -> Result<()> {
         let picture = still(&earth, &["--elevation", "25"])?.picture;
         terminal::show(&picture, args.terminal)?;
     }
-    fs::create_dir_all(&args.output).map_err(|error| Error::io(&args.output, &error))?;
+    image_out::create_folder(&args.output, "name a folder with -o, or move the file away")?;
     files(&earth, &args.output)?;
     try_next();
     Ok(())

@@ -1,15 +1,17 @@
 //! `scanout render`: one picture, to a file, to standard output or to the terminal.
 
+use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::args::RenderArgs;
+use crate::args::{OutputFormat, RenderArgs};
+use crate::compare::{self, Difference};
 use crate::draw::{self, Frame, Options, Report};
 use crate::error::{Error, Result};
-use crate::image_out::{self, is_dash};
+use crate::image_out::{self, Picture, is_dash};
 use crate::scene_builder::view::Fit;
 use crate::scene_builder::{Shot, Stage};
-use crate::{compare, narrate, terminal};
+use crate::{narrate, terminal};
 
 /// Draws the picture and does with it what the options say.
 pub fn run(args: &RenderArgs) -> Result<()> {
@@ -33,6 +35,8 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         Some(path) => Some(image_out::format_for(path, args.output_format)?),
         None => None,
     };
+    // The reference is in memory before anything is written.
+    let reference = args.reference.as_deref().map(|path| Reference::new(path, args)).transpose()?;
     let picture = &args.scene.picture;
     let size = (picture.resolution.width, picture.resolution.height);
     let stage = Stage::load(&args.scene)?;
@@ -50,8 +54,16 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     if args.hash {
         print(&format!("{:016x}\n", frame.hash))?;
     }
+    let difference = match &reference {
+        Some(reference) => reference.compare(&frame.picture)?,
+        None => None,
+    };
     if args.json {
-        print(&format!("{:#}\n", json(&frame, &stage, &shot, args)))?;
+        let mut answer = json(&frame, &stage, &shot, args);
+        if let Some(reference) = &reference {
+            answer["reference"] = reference.json(difference.as_ref());
+        }
+        print(&format!("{answer:#}\n"))?;
     }
     if args.stats {
         for (eye, report) in frame.reports.iter().enumerate() {
@@ -62,8 +74,8 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         }
         narrate!("hash {:016x}", frame.hash);
     }
-    match &args.reference {
-        Some(reference) => check(&frame, reference, args),
+    match reference {
+        Some(reference) => reference.tell(difference.as_ref()),
         None => Ok(()),
     }
 }
@@ -93,38 +105,102 @@ fn json(frame: &Frame, stage: &Stage, shot: &Shot, args: &RenderArgs) -> serde_j
     })
 }
 
-/// Compares with the reference; a difference is told, drawn, and the answer is [`Error::Unequal`].
-fn check(frame: &Frame, reference: &Path, args: &RenderArgs) -> Result<()> {
-    let expected = compare::read(reference)?;
-    let got = &frame.picture;
-    if (got.width, got.height) != (expected.width, expected.height) {
-        return Err(Error::failed(
-            reference.display(),
-            format_args!(
-                "measures {} x {} and the picture {} x {}",
-                expected.width, expected.height, got.width, got.height
-            ),
-            "give --resolution to match",
-        ));
+/// `--reference`: the picture to compare with, and where a difference goes.
+struct Reference<'a> {
+    path: &'a Path,
+    picture: Picture,
+    difference: PathBuf,
+    format: OutputFormat,
+}
+
+impl<'a> Reference<'a> {
+    /// Reads the picture. None of the files may be another one of them.
+    fn new(path: &'a Path, args: &RenderArgs) -> Result<Self> {
+        let output = args.output.as_deref();
+        if output.is_some_and(|output| image_out::same_file(output, path)) {
+            return Err(Error::usage(
+                format_args!("{}: the reference and OUT are the same file", path.display()),
+                "give another name to -o",
+            ));
+        }
+        let difference = match &args.difference {
+            Some(path) => path.clone(),
+            None => compare::difference_path(output, path),
+        };
+        let taken = [Some(path), output].into_iter().flatten();
+        if taken.into_iter().any(|taken| image_out::same_file(taken, &difference)) {
+            return Err(Error::usage(
+                format_args!("{}: the difference would replace this file", difference.display()),
+                "give another name to --difference",
+            ));
+        }
+        let to_stdout = output.is_some_and(is_dash) || args.hash || args.json;
+        if is_dash(&difference) && to_stdout {
+            return Err(Error::usage(
+                "the difference can't go to standard output too",
+                "name a file with --difference",
+            ));
+        }
+        let format = image_out::format_for(&difference, None)?;
+        Ok(Self { path, picture: compare::read(path)?, difference, format })
     }
-    let Some(difference) = compare::compare(got, &expected) else {
-        narrate!("scanout: equals {}", reference.display());
-        return Ok(());
-    };
-    let path = match &args.difference {
-        Some(path) => path.clone(),
-        None => compare::difference_path(args.output.as_deref(), reference),
-    };
-    image_out::write(&path, crate::args::OutputFormat::Png, &difference.picture, &[])?;
-    narrate!(
-        "scanout: {}: {} of {} pixels differ, by up to {}, first at {},{}; see {}",
-        reference.display(),
-        difference.pixels,
-        got.pixels.len(),
-        difference.largest,
-        difference.first.0,
-        difference.first.1,
-        path.display(),
-    );
-    Err(Error::Unequal)
+
+    /// Compares; a difference is drawn, and where there is none the picture of an earlier one goes away.
+    fn compare(&self, got: &Picture) -> Result<Option<Difference>> {
+        let expected = &self.picture;
+        if (got.width, got.height) != (expected.width, expected.height) {
+            return Err(Error::failed(
+                self.path.display(),
+                format_args!(
+                    "measures {} x {} and the picture {} x {}",
+                    expected.width, expected.height, got.width, got.height
+                ),
+                "give --resolution to match",
+            ));
+        }
+        let difference = compare::compare(got, expected);
+        match &difference {
+            Some(difference) => {
+                let picture = &difference.picture;
+                let raw = picture.pixels.as_flattened();
+                image_out::write(&self.difference, self.format, picture, raw)?;
+            }
+            None if self.difference.is_file() => {
+                fs::remove_file(&self.difference)
+                    .map_err(|error| Error::io(&self.difference, &error))?;
+            }
+            None => {}
+        }
+        Ok(difference)
+    }
+
+    fn json(&self, difference: Option<&Difference>) -> serde_json::Value {
+        serde_json::json!({
+            "file": self.path.display().to_string(),
+            "equal": difference.is_none(),
+            "different_pixels": difference.map_or(0, |d| d.pixels),
+            "largest_difference": difference.map_or(0, |d| d.largest),
+            "first_difference": difference.map(|d| [d.first.0, d.first.1]),
+            "difference_file": difference.map(|_| self.difference.display().to_string()),
+        })
+    }
+
+    /// A difference is told, and the answer is [`Error::Unequal`].
+    fn tell(&self, difference: Option<&Difference>) -> Result<()> {
+        let Some(difference) = difference else {
+            narrate!("scanout: equals {}", self.path.display());
+            return Ok(());
+        };
+        narrate!(
+            "scanout: {}: {} of {} pixels differ, by up to {}, first at {},{}; see {}",
+            self.path.display(),
+            difference.pixels,
+            self.picture.pixels.len(),
+            difference.largest,
+            difference.first.0,
+            difference.first.1,
+            self.difference.display(),
+        );
+        Err(Error::Unequal)
+    }
 }
