@@ -52,6 +52,8 @@ pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Mo
         parts: Vec::new(),
         names: HashMap::new(),
         tangled: 0,
+        empty: 0,
+        lost: 0,
     };
     for (material, faces) in by_material.iter().enumerate() {
         parts.faces(material, faces, &normals, &mut stats);
@@ -60,10 +62,14 @@ pub(crate) fn assemble(raw: Raw, file: &str, options: &LoadOptions) -> Result<Mo
     if cloud {
         parts.cloud(options);
     }
-    let Parts { parts, tangled, .. } = parts;
+    let Parts { parts, tangled, empty, lost, .. } = parts;
     drop((grid, normals));
     let (mut warnings, images) = leftovers(raw);
-    warnings.counted(stats.degenerate, "triangles without area were dropped");
+    warnings.counted(empty, "triangles without area were dropped");
+    warnings.counted(
+        lost,
+        "triangles lost their area: finer than 1/65520 of the model's size; split the model into several",
+    );
     warnings.counted(tangled, "polygons that cross themselves were cut as well as possible");
     stats.triangles = parts.iter().map(|p| p.mesh.triangles.len() as u64).sum();
     stats.edges = parts.iter().map(|p| p.mesh.edges.len() as u64).sum();
@@ -114,6 +120,23 @@ fn quantise(p: [f64; 3], placement: &Placement) -> [i16; 3] {
     })
 }
 
+/// True when the grid leaves no area to a triangle.
+fn flat_on_grid([a, b, c]: [[i16; 3]; 3]) -> bool {
+    let minus = |p: [i16; 3]| [0, 1, 2].map(|i: usize| i64::from(p[i]) - i64::from(a[i]));
+    let (e, f) = (minus(b), minus(c));
+    (0..3).all(|i| e[i] * f[(i + 1) % 3] == e[(i + 1) % 3] * f[i])
+}
+
+/// True for a triangle that is more than a needle: its height exceeds 1/100 of its longest side.
+fn has_area([a, b, c]: [[f64; 3]; 3]) -> bool {
+    let minus = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|i: usize| p[i] - q[i]);
+    let (e, f, g) = (minus(b, a), minus(c, a), minus(c, b));
+    let square = |v: [f64; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    let cross = [0, 1, 2].map(|i| e[i] * f[(i + 1) % 3] - e[(i + 1) % 3] * f[i]);
+    // Twice the area is the longest side times its height.
+    square(cross).sqrt() > square(e).max(square(f)).max(square(g)) / 100.0
+}
+
 /// Q16.16, nearest; `as` saturates.
 fn quantise_uv(uv: [f64; 2]) -> [i32; 2] {
     uv.map(|x| (x * 65536.0).round() as i32)
@@ -128,6 +151,10 @@ struct Parts<'a> {
     /// How many parts have a name already.
     names: HashMap<String, u32>,
     tangled: u64,
+    /// Triangles dropped that have no area in the file either.
+    empty: u64,
+    /// Triangles that have an area in the file and none on the grid.
+    lost: u64,
 }
 
 #[derive(Default)]
@@ -223,8 +250,11 @@ impl Parts<'_> {
             for triangle in &triangles {
                 let corner = triangle.map(|i| corners[i as usize]);
                 let place = corner.map(|c| self.grid[c.position as usize]);
+                let lost = flat_on_grid(place) && has_area(triangle.map(|i| points[i as usize]));
+                self.lost += u64::from(lost);
                 if place[0] == place[1] || place[1] == place[2] || place[2] == place[0] {
                     stats.degenerate += 1;
+                    self.empty += u64::from(!lost);
                     continue;
                 }
                 if !builder.has_room_for(3) {

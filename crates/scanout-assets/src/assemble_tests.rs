@@ -82,6 +82,29 @@ fn degenerate_faces_are_dropped_and_counted() {
 }
 
 #[test]
+fn detail_finer_than_the_grid_is_counted() {
+    // A grid step is 200 / 65520 = 0.003: of the small tetrahedra one has a side of 10 steps, one of less than one.
+    let mut text = String::from("v -100 0 0\nv 100 0 0\nv 0 100 0\nf 1 2 3\n");
+    for side in [0.03, 0.001] {
+        text += &format!("v 0 0 1\nv {side} 0 1\nv 0 {side} 1\nv 0 0 {}\n", 1.0 + side);
+        text += "f -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n";
+    }
+    // Neither a point nor a needle has an area to lose; one that the grid flattens without joining its corners has.
+    text += "v 0 0 5\nv 3 0 5\nv 1 0.0001 5\nf -3 -3 -3\nf -3 -2 -1\n";
+    text += "v 0 0 7\nv 0.007 0 7\nv 0.0035 0.0014 7\nf -3 -2 -1\n";
+    let model = load(&text);
+    let texts: Vec<_> = model.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        texts,
+        [
+            "triangles without area were dropped",
+            "triangles lost their area: finer than 1/65520 of the model's size; split the model into several (5 times)"
+        ]
+    );
+    assert_eq!((model.stats.triangles, model.stats.degenerate), (7, 5));
+}
+
+#[test]
 fn lines_and_points_have_parts_of_their_own() {
     let model = load(&format!("{CUBE}l 1 7 2\np 4\n"));
     assert_eq!(model.parts.len(), 2);
