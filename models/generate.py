@@ -76,10 +76,10 @@ def write_flat(letter, name, shape, texture):
     write_ppm(f"{name}.ppm", *texture)
 
 
-def write_material(name, picture=None, colour=(1, 1, 1), specular=0.0, shininess=32):
+def write_material(name, picture=None, colour=(1, 1, 1), specular=0.0, shininess=32, options=""):
     lines = [f"newmtl {name}", "Kd " + " ".join(map(str, colour)), f"Ks {specular} {specular} {specular}"]
     lines += [f"Ns {shininess}", "illum 2"]
-    write_text(f"{name}.mtl", lines + ([f"map_Kd {picture}"] if picture else []))
+    write_text(f"{name}.mtl", lines + ([f"map_Kd {options}{picture}"] if picture else []))
 
 
 def torus(count=20, major=1.6, minor=0.7):
@@ -175,8 +175,9 @@ def earth(segments=64, rings=32):
     seen = {}
     for k in range(rings):
         for i in range(segments):
-            # The picture's middle is longitude 0.
-            left, right = i / segments + 0.5, (i + 1) / segments + 0.5
+            # The picture's middle is longitude 0; its left edge is where a triangle's corners begin again at 0.
+            left = (i / segments + 0.5) % 1
+            right = left + 1 / segments
             top = [corner(0, 0, (left + right) / 2)] if k == 0 else [corner(k, i + 1, right), corner(k, i, left)]
             if k == rings - 1:
                 bottom = [corner(rings, 0, (left + right) / 2)]
@@ -184,7 +185,8 @@ def earth(segments=64, rings=32):
                 bottom = [corner(k + 1, i, left), corner(k + 1, i + 1, right)]
             faces.append(top + bottom)
     write_text("earth.obj", ["mtllib earth.mtl", *obj_lines(positions, uvs, positions, faces, "earth")])
-    write_material("earth", "earth.jpg", specular=0.1, shininess=16)
+    # Clamped: at the poles nothing of the opposite edge shows.
+    write_material("earth", "earth.jpg", specular=0.1, shininess=16, options="-clamp on ")
 
 
 def earth_picture(path):

@@ -235,6 +235,7 @@ impl Parts<'_> {
         let own = |face: u32| &normals[begin(face)..raw.faces[face as usize].end as usize];
         let flat = faces.iter().all(|&face| own(face).windows(2).all(|pair| pair[0] == pair[1]));
         let with_uvs = faces.iter().any(|&f| raw.face(f as usize).iter().any(|c| c.uv != NONE));
+        let uv_map = raw.uv_maps.get(&(material as u32));
         let mut builder = Builder::default();
         let (mut points, mut triangles) = (Vec::new(), Vec::new());
         for &face in faces {
@@ -270,7 +271,7 @@ impl Parts<'_> {
                 if with_uvs {
                     let uvs = corner.map(|c| {
                         let uv = raw.uvs.get(c.uv as usize).copied().unwrap_or([0.0; 2]);
-                        builder.uv(quantise_uv(uv))
+                        builder.uv(quantise_uv(uv_map.map_or(uv, |map| map.apply(uv))))
                     });
                     builder.mesh.uv_triangles.push(uvs);
                 }

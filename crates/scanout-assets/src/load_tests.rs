@@ -1,5 +1,6 @@
 use super::*;
 use crate::model::NormalsBuf;
+use scanout::texture::Wrap;
 
 /// A folder of its own that is removed afterwards.
 struct Folder(std::path::PathBuf);
@@ -55,6 +56,26 @@ fn textures_are_found_however_they_are_named() {
             assert_eq!(model.images[0].rgb, [*b"abc"]);
         }
     }
+}
+
+#[test]
+fn a_texture_is_clamped_scaled_and_moved() {
+    let folder = Folder::new("options");
+    folder.write("t.ppm", PICTURE);
+    folder.write(
+        "m.mtl",
+        b"newmtl a\nmap_Kd -clamp on t.ppm\nnewmtl b\nmap_Kd -s 2 4 1 -o 0.5 0.25 0 t.ppm\n",
+    );
+    let faces = "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 2/2 3/3\n";
+    let text = format!("mtllib m.mtl\n{TRIANGLE}{faces}");
+    let model = load(folder.write("m.obj", text.as_bytes()), &LoadOptions::default()).unwrap();
+    let [a, b] = model.parts.as_slice() else { panic!("{}", model.parts.len()) };
+    assert_eq!((a.material.wrap, b.material.wrap), ([Wrap::Clamp; 2], [Wrap::Repeat; 2]));
+    let one = 65536;
+    assert_eq!(a.mesh.uvs, [[0, one], [one, one], [0, 0]]);
+    // (u, v) = (0, 0), (1, 0), (0, 1) upwards lie at (0.5, 0.25), (2.5, 0.25), (0.5, 4.25).
+    let below = one * 3 / 4;
+    assert_eq!(b.mesh.uvs, [[one / 2, below], [one * 5 / 2, below], [one / 2, below - 4 * one]]);
 }
 
 #[test]
@@ -202,6 +223,10 @@ fn shipped_models_load_without_a_warning() {
         let vertex = matches!(model.parts[0].mesh.normals, NormalsBuf::Vertex(_));
         assert_eq!(vertex, smooth, "{file}");
     }
+    // Nothing of the south at the north pole: the picture does not repeat, and needs not.
+    let earth = load(folder.join("earth.obj"), &LoadOptions::default()).unwrap();
+    assert_eq!(earth.parts[0].material.wrap, [Wrap::Clamp; 2]);
+    assert!(earth.parts[0].mesh.uvs.as_flattened().iter().all(|x| (0..=65_536).contains(x)));
     let hand = load(folder.join("hand.glb"), &LoadOptions::default()).unwrap();
     assert_eq!(hand.stats.triangles, 2314);
     assert_eq!(messages(&hand), ["skins are ignored; the rest pose is shown"]);

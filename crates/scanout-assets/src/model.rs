@@ -2,6 +2,7 @@
 
 use crate::error::Warning;
 use scanout::mesh::{Mesh, Normals, Sphere};
+use scanout::texture::Wrap;
 
 /// Normals of a [`MeshBuf`], Q2.14, as `scanout::mesh::Normals`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -73,6 +74,8 @@ pub struct MaterialBuf {
     pub shininess: u16,
     /// Index into [`Model::images`].
     pub texture: Option<usize>,
+    /// What lies outside [0, 1) of the texture, for u and v (MTL's `-clamp on`, glTF's samplers).
+    pub wrap: [Wrap; 2],
     /// The file asks for both sides (glTF's `doubleSided`).
     pub two_sided: bool,
 }
@@ -88,6 +91,7 @@ impl Default for MaterialBuf {
             specular: 0.0,
             shininess: 32,
             texture: None,
+            wrap: [Wrap::Repeat; 2],
             two_sided: false,
         }
     }

@@ -4,6 +4,7 @@
 use crate::error::{LoadError, Warnings};
 use crate::load::Limits;
 use crate::model::{Image, MaterialBuf};
+use std::collections::HashMap;
 
 /// "No index".
 pub(crate) const NONE: u32 = u32::MAX;
@@ -30,6 +31,23 @@ pub(crate) struct Face {
     pub smoothing: u32,
 }
 
+/// Where a material's texture lies: `uv * scale + offset`, v upwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct UvMap {
+    pub scale: [f64; 2],
+    pub offset: [f64; 2],
+}
+
+impl UvMap {
+    pub(crate) const IDENTITY: Self = Self { scale: [1.0; 2], offset: [0.0; 2] };
+
+    /// Of a texture coordinate with v downwards, as [`Raw::uvs`].
+    pub(crate) fn apply(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let Self { scale, offset } = self;
+        [u * scale[0] + offset[0], 1.0 - ((1.0 - v) * scale[1] + offset[1])]
+    }
+}
+
 /// The whole model. Every index is valid (readers check), every number finite.
 #[derive(Debug, Default)]
 pub(crate) struct Raw {
@@ -48,6 +66,8 @@ pub(crate) struct Raw {
     pub points: Vec<[u32; 2]>,
     /// At least one when anything refers to it.
     pub materials: Vec<MaterialBuf>,
+    /// Of the materials whose texture is scaled or moved, by index.
+    pub uv_maps: HashMap<u32, UvMap>,
     pub images: Vec<Image>,
     /// Some material names a texture, found or not.
     pub texture_named: bool,

@@ -1,6 +1,6 @@
 //! Reading `.mesh` in place: no allocator, no copy, no `unsafe`.
 
-use super::{HEADER, MAGIC, NO_TEXTURE, PART, TEXTURE, VERSION, crc32};
+use super::{HEADER, MAGIC, NO_TEXTURE, PART, TEXTURE, VERSION, WRAPS, crc32};
 use bytemuck::AnyBitPattern;
 use core::fmt;
 use scanout::mesh::{Mesh, Normals, Sphere};
@@ -95,6 +95,8 @@ pub struct BakedPart<'a> {
     pub shininess: u16,
     /// Index for [`BakedMesh::texture`].
     pub texture: Option<usize>,
+    /// What lies outside [0, 1) of the texture, for u and v: for the field of the same name of [`BakedMesh::texture`].
+    pub wrap: [Wrap; 2],
     /// Draw back faces too.
     pub two_sided: bool,
 }
@@ -175,7 +177,8 @@ impl<'a> BakedMesh<'a> {
         (index < self.parts).then(|| self.checked_part(index).ok()).flatten()
     }
 
-    /// One texture (repeating, nearest texel, black border), or `None` beyond the last.
+    /// One texture (nearest texel, black border, repeating: give it its part's [`BakedPart::wrap`]), or `None` beyond the
+    /// last.
     pub fn texture(&self, index: usize) -> Option<Texture<'a>> {
         (index < self.textures).then(|| self.checked_texture(index).ok()).flatten()
     }
@@ -258,6 +261,7 @@ impl<'a> BakedMesh<'a> {
             specular: u32_at(bytes, at + 84) as i32,
             shininess: u16_at(bytes, at + 88),
             texture: (texture != NO_TEXTURE).then_some(texture.into()),
+            wrap: [2, 4].map(|bit| WRAPS[usize::from(flags >> bit & 3)]),
             two_sided: flags & 1 != 0,
         })
     }

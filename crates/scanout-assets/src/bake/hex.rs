@@ -120,7 +120,7 @@ fn material(m: &crate::model::MaterialBuf) -> String {
     let texture = m.texture.map_or(0xff, |t| t.min(0xff));
     format!(
         "{:02x}{texture:02x}{:04x}{:05x}{:05x}{:05x}0{}",
-        u8::from(m.two_sided),
+        u8::from(m.two_sided) | super::wrap_bits(m.wrap) << 2,
         m.shininess,
         q16(m.specular),
         q16(m.diffuse),

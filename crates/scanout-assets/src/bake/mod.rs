@@ -28,7 +28,7 @@
 //! | 48 | u32 | triangles of texture coordinates: offset; as many as triangles, or offset 0: none |
 //! | 52 | u32, u32 | edges: offset, count; `[u16; 2]` |
 //! | 60 | u16 | kind of the normals: 0 none, 1 one a position, 2 one a triangle |
-//! | 62 | u16 | flags: bit 0 two-sided, bit 1 bounding sphere present |
+//! | 62 | u16 | flags: bit 0 two-sided, bit 1 bounding sphere present, bits 2, 3 and 4, 5 wrap in u and v |
 //! | 64 | 3 x i16, u16 | bounding sphere: centre Q1.15, radius U1.15 |
 //! | 72 | 3 x u8, u8 | colour, 0 |
 //! | 76 | 3 x i32 | weights ambient, diffuse, specular, Q16.16 |
@@ -40,6 +40,8 @@
 //! | 0 | u16, u16 | width, height, 1 to 1024 |
 //! | 4 | u16, u16 | mip levels, 0 |
 //! | 8 | u32, u32 | RGB565 texels: offset, count of all levels |
+//!
+//! Wrap is what lies outside [0, 1) of the texture: 0 it repeats, 1 mirrored, 2 its outermost texel continues, 3 border.
 //!
 //! The `.hex` tables are described by [`HEX_README`], which is written beside them.
 
@@ -55,6 +57,8 @@ pub use hex::{HEX_README, HexError, check_hex, hex_files};
 #[cfg(feature = "std")]
 pub use write::{to_binary, write_binary, write_hex};
 
+use scanout::texture::Wrap;
+
 /// First bytes of a `.mesh` file.
 pub const MAGIC: [u8; 4] = *b"SCNM";
 /// Version of the format that this library writes and reads.
@@ -65,6 +69,16 @@ const PART: usize = 96;
 const TEXTURE: usize = 16;
 /// "No texture".
 const NO_TEXTURE: u16 = u16::MAX;
+
+/// Wrap in u and v as 4 bits.
+#[cfg(feature = "std")]
+fn wrap_bits([u, v]: [Wrap; 2]) -> u8 {
+    let bits = |wrap: Wrap| WRAPS.iter().position(|&w| w == wrap).unwrap_or(0) as u8;
+    bits(u) | bits(v) << 2
+}
+
+/// In the order of their numbers.
+const WRAPS: [Wrap; 4] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Border];
 
 /// CRC-32 (IEEE 802.3), bit by bit: slow but without a table; about 60 cycles a byte on a Cortex-M.
 fn crc32(bytes: &[u8]) -> u32 {

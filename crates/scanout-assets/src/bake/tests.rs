@@ -14,6 +14,7 @@ fn model() -> Model {
     model.images.push(Image { name: "t".into(), width: 3, height: 2, levels: 1, rgb }.with_mips());
     model.parts[0].material.texture = Some(0);
     model.parts[1].material.two_sided = true;
+    model.parts[1].material.wrap = [Wrap::Mirror, Wrap::Clamp];
     model
 }
 
@@ -46,6 +47,7 @@ fn a_round_trip_keeps_everything() {
             assert_eq!(part.colour, ours.material.colour);
             assert_eq!((part.ambient, part.diffuse, part.specular), (13107, 52429, 0));
             assert_eq!(part.texture, ours.material.texture);
+            assert_eq!(part.wrap, ours.material.wrap);
             assert_eq!(part.two_sided, ours.material.two_sided);
             assert_eq!(part.shininess, 32);
         }
@@ -141,6 +143,11 @@ fn tables_have_a_line_an_entry() {
     assert_eq!(lines("materials.hex").len(), 3);
     assert!(lines("materials.hex").iter().all(|line| line.len() == 30));
     assert_eq!(&lines("materials.hex")[0][..8], "00000020");
+    assert_eq!(
+        &lines("materials.hex")[1][..8],
+        "25ff0020",
+        "two-sided, mirrored in u, clamped in v"
+    );
     assert!(lines("mesh.svh").contains(&"localparam longint MESH_TRIANGLES = 5;"));
     assert!(lines("mesh.svh").contains(&"localparam longint MESH_NORMALS_PER_TRIANGLE = 0;"));
     let vertex_count = lines("vertices.hex").len();

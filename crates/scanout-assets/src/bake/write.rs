@@ -1,6 +1,6 @@
 //! Writing baked models.
 
-use super::{HEADER, MAGIC, NO_TEXTURE, PART, TEXTURE, VERSION, crc32, hex};
+use super::{HEADER, MAGIC, NO_TEXTURE, PART, TEXTURE, VERSION, crc32, hex, wrap_bits};
 use crate::model::{Model, NormalsBuf, Part};
 use std::fs::File;
 use std::io::{self, ErrorKind, Write};
@@ -111,7 +111,8 @@ fn put_part(out: &mut Vec<u8>, at: usize, part: &Part, textures: u16) {
     }
     section(out, at + 52, mesh.edges.len(), u16s(mesh.edges.as_flattened()));
     put16(out, at + 60, kind);
-    put16(out, at + 62, u16::from(material.two_sided) | u16::from(mesh.bounds.is_some()) << 1);
+    let flags = u16::from(material.two_sided) | u16::from(mesh.bounds.is_some()) << 1;
+    put16(out, at + 62, flags | u16::from(wrap_bits(material.wrap)) << 2);
     if let Some(bounds) = mesh.bounds {
         for axis in 0..3 {
             put16(out, at + 64 + 2 * axis, bounds.centre[axis] as u16);

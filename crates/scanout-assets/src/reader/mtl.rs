@@ -6,7 +6,7 @@
 //! | `Ka r g b` | ambient weight = 0.2 x mean, at most 0.2 (without it: 0.2) |
 //! | `Ks r g b` | specular weight = 0.4 x mean; 0 when `illum` is 0 or 1 |
 //! | `Ns` | shininess, 1 to 1024 |
-//! | `map_Kd` | texture; options are skipped |
+//! | `map_Kd` | texture; of its options `-clamp`, `-s` and `-o` count, the others are skipped |
 //! | `d`, `Tr` | ignored with a warning when not opaque |
 //!
 //! The diffuse weight is what remains to 1. Everything else is ignored.
@@ -14,6 +14,8 @@
 use crate::error::Warnings;
 use crate::model::MaterialBuf;
 use crate::number::Number;
+use crate::raw::UvMap;
+use scanout::texture::Wrap;
 
 /// Materials that a file may define.
 const MATERIALS: usize = 65_536;
@@ -23,6 +25,7 @@ const MATERIALS: usize = 65_536;
 pub(crate) struct MtlMaterial {
     pub material: MaterialBuf,
     pub texture: Option<String>,
+    pub uv_map: UvMap,
     ambient: f64,
     specular: f64,
     illumination: f64,
@@ -63,6 +66,7 @@ pub(crate) fn read(bytes: &[u8], file: &str, warnings: &mut Warnings) -> Vec<Mtl
             materials.push(MtlMaterial {
                 material: MaterialBuf { name: rest.into(), ..MaterialBuf::default() },
                 texture: None,
+                uv_map: UvMap::IDENTITY,
                 ambient: 1.0,
                 specular: 0.0,
                 illumination: 2.0,
@@ -101,7 +105,7 @@ pub(crate) fn read(bytes: &[u8], file: &str, warnings: &mut Warnings) -> Vec<Mtl
             "Tr" if number(rest).is_some_and(|tr| tr > 0.0) => {
                 warnings.warn(format!("{file}: transparency (Tr) is ignored"));
             }
-            "map_Kd" | "map_kd" => current.texture = texture_name(rest),
+            "map_Kd" | "map_kd" => current.map(rest),
             _ => {}
         }
     }
@@ -135,22 +139,41 @@ fn colour(text: &str) -> Option<[f64; 3]> {
     Some([first, second, third].map(|c| c.clamp(0.0, 1.0)))
 }
 
-/// The file's name after the options: the rest of the line, since names have spaces.
-fn texture_name(mut text: &str) -> Option<String> {
-    while text.starts_with('-') {
-        let (option, rest) = text.split_once(char::is_whitespace)?;
-        let &(_, words) = OPTIONS.iter().find(|(name, _)| *name == option)?;
-        text = rest.trim_start();
-        for i in 0..words {
-            let Some((word, rest)) = text.split_once(char::is_whitespace) else { break };
-            // `-o`, `-s`, `-t` take one to three numbers; `-clamp on`, `-type sphere` take a word.
-            if i > 0 && Number::parse(word.as_bytes()).is_none() {
-                break;
-            }
-            text = rest.trim_start();
-        }
+impl MtlMaterial {
+    /// `map_Kd`: options, then the file's name, which is the rest of the line, since names have spaces.
+    fn map(&mut self, text: &str) {
+        self.texture = None;
+        self.uv_map = UvMap::IDENTITY;
+        self.material.wrap = [Wrap::Repeat; 2];
+        self.texture = self.options(text).filter(|name| !name.is_empty()).map(str::to_string);
     }
-    (!text.is_empty()).then(|| text.to_string())
+
+    /// Takes the options; what follows them, or `None` after one that is unknown.
+    fn options<'a>(&mut self, mut text: &'a str) -> Option<&'a str> {
+        while text.starts_with('-') {
+            let (option, rest) = text.split_once(char::is_whitespace)?;
+            let &(_, words) = OPTIONS.iter().find(|(name, _)| *name == option)?;
+            text = rest.trim_start();
+            for i in 0..words {
+                let Some((word, rest)) = text.split_once(char::is_whitespace) else { break };
+                // `-o`, `-s`, `-t` take one to three numbers; `-clamp on`, `-type sphere` take a word.
+                let number = number(word);
+                if i > 0 && number.is_none() {
+                    break;
+                }
+                match (option, number, i) {
+                    ("-clamp", _, _) if word.eq_ignore_ascii_case("on") => {
+                        self.material.wrap = [Wrap::Clamp; 2];
+                    }
+                    ("-s", Some(x), 0 | 1) => self.uv_map.scale[i] = x,
+                    ("-o", Some(x), 0 | 1) => self.uv_map.offset[i] = x,
+                    _ => {}
+                }
+                text = rest.trim_start();
+            }
+        }
+        Some(text)
+    }
 }
 
 #[cfg(test)]
@@ -170,6 +193,22 @@ mod tests {
         assert_eq!(matt.material.specular, 0.0);
         assert_eq!(matt.texture.as_deref(), Some("my brick.png"));
         assert_eq!(warnings.0.len(), 2);
+    }
+
+    #[test]
+    fn options_of_a_texture_count() {
+        let mut warnings = Warnings::default();
+        let text = b"newmtl a\nmap_Kd -s 2 3 4 -o 0.5 -clamp ON a b.png\n\
+            newmtl b\nmap_Kd -clamp on -s 5 x\nmap_Kd -clamp off -o 0.25 -0.5 2x.png\n";
+        let m = read(text, "m.mtl", &mut warnings);
+        assert_eq!(m[0].texture.as_deref(), Some("a b.png"));
+        assert_eq!(m[0].material.wrap, [Wrap::Clamp; 2]);
+        assert_eq!(m[0].uv_map, UvMap { scale: [2.0, 3.0], offset: [0.5, 0.0] });
+        // The last line of several counts, with its options only.
+        assert_eq!(m[1].texture.as_deref(), Some("2x.png"));
+        assert_eq!(m[1].material.wrap, [Wrap::Repeat; 2]);
+        assert_eq!(m[1].uv_map, UvMap { scale: [1.0; 2], offset: [0.25, -0.5] });
+        assert!(warnings.0.is_empty());
     }
 
     #[test]

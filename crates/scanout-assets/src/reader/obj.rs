@@ -5,7 +5,7 @@ use crate::error::{At, LoadError};
 use crate::load::read_file;
 use crate::model::MaterialBuf;
 use crate::obj::{self, Element, Event};
-use crate::raw::{Corner, NONE, Raw, SMOOTHING_UNSPECIFIED, usable};
+use crate::raw::{Corner, NONE, Raw, SMOOTHING_UNSPECIFIED, UvMap, usable};
 use std::collections::HashMap;
 
 /// Bytes fed between two checks of the limits.
@@ -239,6 +239,9 @@ impl State {
                     }
                     if let Some(name) = found.texture {
                         self.raw.texture_named = true;
+                        if found.uv_map != UvMap::IDENTITY {
+                            self.raw.uv_maps.insert(index, found.uv_map);
+                        }
                         found.material.texture = textures.load(
                             &name,
                             &folders,

@@ -2,7 +2,7 @@
 //!
 //! Read: the default scene's nodes with their transforms, triangles (lists, strips, fans), lines, points, with or without
 //! indices, any component type, sparse accessors, `POSITION`, `NORMAL`, `TEXCOORD_n`, `COLOR_0`, `baseColorFactor`,
-//! `baseColorTexture`, `doubleSided`, `KHR_texture_transform`. Linear colours are encoded as sRGB, since the pipeline
+//! `baseColorTexture`, `doubleSided`, `wrapS`, `wrapT`, `KHR_texture_transform`. Linear colours are encoded as sRGB, since the pipeline
 //! multiplies encoded colours. A rough surface is matt; a smooth one gets a highlight.
 //!
 //! Ignored with a warning: skins (the rest pose is shown), morph targets, transparency, optional extensions of materials.
@@ -15,12 +15,13 @@ mod schema;
 mod tests;
 
 use self::access::Access;
-use self::schema::{Document, Node, Primitive};
+use self::schema::{Document, Node, Primitive, Sampler};
 use super::Source;
 use crate::error::{At, LoadError};
 use crate::image::load_image;
 use crate::model::{Image, MaterialBuf};
 use crate::raw::{Corner, NONE, Raw, SMOOTHING_UNSPECIFIED, usable};
+use scanout::texture::Wrap;
 
 /// Column-major, as in the file.
 type Matrix = [f64; 16];
@@ -88,6 +89,9 @@ impl Reader<'_> {
                 }
                 images[image].flatten()
             });
+            let sampler = pbr.base_color_texture.as_ref().and_then(|reference| {
+                self.document.samplers.get(self.document.textures.get(reference.index)?.sampler?)
+            });
             if pbr.base_color_texture.is_some() && texture.is_none() {
                 self.raw.texture_named = true;
                 self.raw.warnings.warn(format!("material {index}: its texture is not usable"));
@@ -105,6 +109,7 @@ impl Reader<'_> {
                 // The exponent whose highlight is as wide as a GGX lobe of that roughness.
                 shininess: (2.0 / rough.powi(4).max(0.002) - 2.0).clamp(1.0, 1024.0) as u16,
                 texture,
+                wrap: sampler.map_or([Wrap::Repeat; 2], Sampler::wrap),
                 two_sided: material.double_sided,
             });
         }

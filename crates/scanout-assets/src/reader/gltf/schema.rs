@@ -1,5 +1,6 @@
 //! The parts of the glTF 2.0 schema that are read. Names are the specification's.
 
+use scanout::texture::Wrap;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -13,6 +14,7 @@ pub(super) struct Document {
     pub meshes: Vec<Mesh>,
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
+    pub samplers: Vec<Sampler>,
     pub images: Vec<Image>,
     pub accessors: Vec<Accessor>,
     pub buffer_views: Vec<BufferView>,
@@ -151,6 +153,25 @@ impl TextureReference {
 #[serde(default)]
 pub(super) struct Texture {
     pub source: Option<usize>,
+    pub sampler: Option<usize>,
+}
+
+/// `wrapS` and `wrapT` are numbers of OpenGL.
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Sampler {
+    pub wrap_s: u32,
+    pub wrap_t: u32,
+}
+
+impl Sampler {
+    pub(super) fn wrap(&self) -> [Wrap; 2] {
+        [self.wrap_s, self.wrap_t].map(|wrap| match wrap {
+            33_071 => Wrap::Clamp,
+            33_648 => Wrap::Mirror,
+            _ => Wrap::Repeat,
+        })
+    }
 }
 
 #[derive(Debug, Default, Deserialize)]

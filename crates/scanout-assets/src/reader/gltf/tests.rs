@@ -2,6 +2,7 @@ use super::container::data_uri;
 use crate::load::{Format, LoadOptions, load_bytes};
 use crate::model::{Model, NormalsBuf};
 use crate::{LoadError, LoadErrorKind};
+use scanout::texture::Wrap;
 
 fn load(bytes: &[u8]) -> Result<Model, LoadError> {
     load_bytes(bytes, Some(Format::Gltf), "t.gltf", None, &LoadOptions::default())
@@ -69,6 +70,18 @@ fn base64_round_trip() {
         assert_eq!(data_uri(&format!("data:;base64,{}", base64(&bytes))), Some(bytes));
     }
     assert_eq!(data_uri("data:text/plain,hello"), None);
+}
+
+#[test]
+fn samplers_say_how_a_texture_goes_on() {
+    let text = file(INDEXED, ONE)
+        .replace(r#""roughnessFactor""#, r#""baseColorTexture": {"index": 0}, "roughnessFactor""#)
+        .replace(
+            r#""materials""#,
+            r#""textures": [{"sampler": 0}], "samplers": [{"wrapS": 33071, "wrapT": 33648}], "materials""#,
+        );
+    let model = load_bytes(text.as_bytes(), None, "t", None, &LoadOptions::default()).unwrap();
+    assert_eq!(model.parts[0].material.wrap, [Wrap::Clamp, Wrap::Mirror]);
 }
 
 #[test]
