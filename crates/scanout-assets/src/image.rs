@@ -211,9 +211,21 @@ fn netpbm(bytes: &[u8], name: &str) -> Result<Picture, LoadError> {
     Ok(Picture { width: size.0, height: size.1, rgb })
 }
 
+fn too_large(name: &str) -> LoadError {
+    LoadError::too_large(name, "the picture is too large; scale it down")
+}
+
 fn png(bytes: &[u8], name: &str, warn: &mut impl FnMut(String)) -> Result<Picture, LoadError> {
-    let fail = |error: png::DecodingError| {
-        LoadError::malformed(name, At::File, format!("PNG: {error}; export it again"))
+    let fail = |error: png::DecodingError| match error {
+        png::DecodingError::LimitsExceeded => too_large(name),
+        png::DecodingError::IoError(_) => {
+            LoadError::malformed(name, At::File, "PNG: it ends early; copy the file again")
+        }
+        // The library's words name its own types; a checksum is what tells a bad copy.
+        error if error.to_string().contains("CRC") => {
+            LoadError::malformed(name, At::File, "PNG: a checksum differs; copy the file again")
+        }
+        _ => LoadError::malformed(name, At::File, "PNG: it is damaged; export it again"),
     };
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_limits(png::Limits { bytes: 64 << 20 });
@@ -223,7 +235,7 @@ fn png(bytes: &[u8], name: &str, warn: &mut impl FnMut(String)) -> Result<Pictur
     check_size(name, width, height)?;
     let size = reader.output_buffer_size().unwrap_or(usize::MAX);
     if size > 4 * TEXELS {
-        return Err(LoadError::too_large(name, "the picture is too large; scale it down"));
+        return Err(too_large(name));
     }
     let mut data = vec![0; size];
     let info = reader.next_frame(&mut data).map_err(fail)?;
@@ -240,25 +252,33 @@ fn png(bytes: &[u8], name: &str, warn: &mut impl FnMut(String)) -> Result<Pictur
 }
 
 fn jpeg(bytes: &[u8], name: &str) -> Result<Picture, LoadError> {
+    use zune_jpeg::errors::DecodeErrors;
     use zune_jpeg::zune_core::{
         bytestream::ZCursor, colorspace::ColorSpace, options::DecoderOptions,
     };
-    let fail = |error: &dyn std::fmt::Debug| {
-        let text = format!("{error:?}").replace(|c: char| c.is_control(), " ");
-        let text: String = text.trim().chars().take(120).collect();
-        LoadError::malformed(name, At::File, format!("JPEG: {text}; export it again"))
+    let damaged = || LoadError::malformed(name, At::File, "JPEG: it is damaged; export it again");
+    let fail = |error: DecodeErrors| match error {
+        DecodeErrors::LargeDimensions(_) => too_large(name),
+        DecodeErrors::ExhaustedData | DecodeErrors::IoErrors(_) => {
+            LoadError::malformed(name, At::File, "JPEG: it ends early; copy the file again")
+        }
+        DecodeErrors::Unsupported(_) => {
+            let what = "JPEG: lossless or arithmetic coding is not read; export it as baseline";
+            LoadError::unsupported(name, At::File, what)
+        }
+        _ => damaged(),
     };
     let options = DecoderOptions::default()
         .set_max_width(16_384)
         .set_max_height(16_384)
         .jpeg_set_out_colorspace(ColorSpace::RGB);
     let mut decoder = zune_jpeg::JpegDecoder::new_with_options(ZCursor::new(bytes), options);
-    decoder.decode_headers().map_err(|e| fail(&e))?;
-    let (width, height) = decoder.dimensions().ok_or_else(|| fail(&"no dimensions"))?;
+    decoder.decode_headers().map_err(fail)?;
+    let (width, height) = decoder.dimensions().ok_or_else(damaged)?;
     check_size(name, width, height)?;
-    let data = decoder.decode().map_err(|e| fail(&e))?;
+    let data = decoder.decode().map_err(fail)?;
     if data.len() != width * height * 3 {
-        return Err(fail(&"unexpected colour space"));
+        return Err(damaged());
     }
     let rgb = data.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
     Ok(Picture { width, height, rgb })

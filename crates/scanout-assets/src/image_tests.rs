@@ -121,6 +121,19 @@ fn broken_pictures_are_one_line() {
         let text = Image::decode(bytes, "t").unwrap_err().to_string();
         assert!(text.starts_with("t: ") && text.contains("; ") && !text.contains('\n'), "{text}");
     }
+    // In our words, not the libraries'.
+    let mut checksum = png.clone();
+    checksum[29] ^= 1;
+    let mut signature = png.clone();
+    signature[5] = b'x';
+    for (bytes, text) in [
+        (checksum.as_slice(), "t: PNG: a checksum differs; copy the file again"),
+        (&signature, "t: PNG: it is damaged; export it again"),
+        (&png[..50], "t: PNG: it ends early; copy the file again"),
+        (&jpeg[..4], "t: JPEG: it ends early; copy the file again"),
+    ] {
+        assert_eq!(Image::decode(bytes, "t").unwrap_err().to_string(), text);
+    }
     for end in 0..png.len() {
         let _ = Image::decode(&png[..end], "t");
     }

@@ -46,6 +46,8 @@ mod raw;
 #[cfg(feature = "std")]
 mod reader;
 #[cfg(feature = "std")]
+mod sniff;
+#[cfg(feature = "std")]
 mod triangulate;
 
 #[cfg(feature = "std")]

@@ -6,6 +6,7 @@ use crate::image::load_image;
 use crate::model::Model;
 use crate::raw::Raw;
 use crate::reader::{self, Source};
+use crate::sniff::mistaken;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -170,6 +171,9 @@ fn read(
             at: At::File,
             what: "the file is empty; export it again".into(),
         });
+    }
+    if let Some(what) = mistaken(bytes, format) {
+        return Err(LoadError::unsupported(name, At::File, what));
     }
     let Some(format) = format.or_else(|| Format::from_content(bytes)) else {
         return Err(LoadError::unsupported(

@@ -108,7 +108,7 @@ fn missing_files_are_warnings() {
     folder.write("broken.png", b"\x89PNG\r\n\x1a\nxx");
     let model = load(folder.0.join("m.obj"), &LoadOptions::default()).unwrap();
     assert_eq!(model.warnings.len(), 1);
-    assert!(messages(&model)[0].contains("broken.png: PNG: "));
+    assert!(messages(&model)[0].ends_with("broken.png: PNG: it ends early; copy the file again"));
 }
 
 #[test]
@@ -136,6 +136,49 @@ fn formats_are_recognised() {
     assert_eq!(Format::from_content(b"solid x"), Some(Format::Stl));
     assert_eq!(Format::from_content(b"# text"), Some(Format::Obj));
     assert_eq!(Format::from_content(b"\0\0"), None);
+}
+
+#[test]
+fn a_file_of_another_format_is_named() {
+    let options = LoadOptions::default();
+    let obj = format!("# a comment\n{TRIANGLE}f 1/1 2/2 3/3");
+    let mut binary = vec![b' '; 84];
+    binary[80..].copy_from_slice(&1u32.to_le_bytes());
+    binary.resize(134, 0);
+    let looks = |name: &str, option: &str| {
+        format!("t: this looks like {name}; rename it or use --input-format {option}")
+    };
+    let picture = |name: &str| {
+        format!("t: a {name} picture, not a model; name an OBJ, STL, PLY, glTF or GLB file")
+    };
+    for (bytes, format, message) in [
+        (obj.as_bytes(), Some(Format::Stl), looks("OBJ", "obj")),
+        (obj.as_bytes(), Some(Format::Ply), looks("OBJ", "obj")),
+        (obj.as_bytes(), Some(Format::Gltf), looks("OBJ", "obj")),
+        (b"glTF\x02\0\0\0", Some(Format::Obj), looks("GLB", "glb")),
+        (b"  {\"asset\"", Some(Format::Obj), looks("glTF", "gltf")),
+        (b"ply\r\nformat", Some(Format::Stl), looks("PLY", "ply")),
+        (b"solid x\nfacet", Some(Format::Obj), looks("STL", "stl")),
+        (&binary, Some(Format::Gltf), looks("STL", "stl")),
+        (b"\x89PNG\r\n", None, picture("PNG")),
+        (b"\xff\xd8\xff\xe0", Some(Format::Obj), picture("JPEG")),
+    ] {
+        let error = load_bytes(bytes, format, "t", None, &options).unwrap_err();
+        assert_eq!(error.to_string(), message);
+        assert_eq!(error.kind, LoadErrorKind::Unsupported);
+    }
+}
+
+#[test]
+fn data_without_a_folder_says_so() {
+    let text = format!("mtllib teapot.mtl\n{TRIANGLE}usemtl a\nf 1 2 3");
+    let model =
+        load_bytes(text.as_bytes(), None, "standard input", None, &LoadOptions::default()).unwrap();
+    assert_eq!(
+        messages(&model)[0],
+        "material file 'teapot.mtl' is not read: standard input has no folder to look in; \
+            name the model's file"
+    );
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! library (trimesh 4) finds, malformed ones are an error of one line, and nothing panics. Skipped, with a word, where
 //! the package is not installed (`apt-get install assimp-testmodels`).
 
+use scanout::texture::Wrap;
 use scanout_assets::{LoadOptions, Model, NormalSource, NormalsBuf, load};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -152,6 +153,10 @@ fn text_and_binary_of_one_model_are_equal() {
         "glTF2/BoxTextured-glTF/BoxTextured.gltf",
         "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb",
     ];
-    let [text, binary] = boxes.map(parts);
+    let [text, mut binary] = boxes.map(parts);
+    // Only the text has a sampler that mirrors and clamps.
+    assert_eq!(text[0].material.wrap, [Wrap::Mirror, Wrap::Clamp]);
+    assert_eq!(binary[0].material.wrap, [Wrap::Repeat; 2]);
+    binary[0].material.wrap = text[0].material.wrap;
     assert_eq!(text, binary);
 }

@@ -22,6 +22,17 @@ pub(crate) struct Source<'a> {
     pub limits: &'a Limits,
 }
 
+impl Source<'_> {
+    /// Why a file that this one names is not there, and what to do; to follow its name.
+    pub(crate) fn missing(&self, folders: &[&Path]) -> String {
+        if folders.is_empty() {
+            format!("is not read: {} has no folder to look in; name the model's file", self.name)
+        } else {
+            "not found; put it beside the model".into()
+        }
+    }
+}
+
 /// Finds a file that another file names, as forgiving as users expect: backslashes, absolute paths of somebody else's
 /// computer (tried beside the referring file), other capitals. Only regular files count.
 pub(crate) fn find_file(name: &str, folders: &[&Path]) -> Option<PathBuf> {
@@ -67,12 +78,12 @@ impl Textures {
         &mut self,
         name: &str,
         folders: &[&Path],
-        limits: &Limits,
+        source: &Source<'_>,
         images: &mut Vec<Image>,
         warnings: &mut Warnings,
     ) -> Option<usize> {
         let Some(path) = find_file(name, folders) else {
-            warnings.warn(format!("texture '{name}' not found; put it beside the model"));
+            warnings.warn(format!("texture '{name}' {}", source.missing(folders)));
             return None;
         };
         if let Some((_, index)) = self.known.iter().find(|(known, _)| *known == path) {
@@ -82,7 +93,7 @@ impl Textures {
             warnings.warn(format!("more than {TEXTURES} textures; the rest are ignored"));
             return None;
         }
-        let index = match load_image(&path, limits) {
+        let index = match load_image(&path, source.limits) {
             Ok((image, notes)) => {
                 notes.into_iter().for_each(|w| warnings.warn(w.text));
                 images.push(image);

@@ -217,9 +217,9 @@ impl State {
         for names in std::mem::take(&mut self.libraries) {
             for path in library_files(&names, source) {
                 let Some(path) = path else {
-                    self.raw.warnings.warn(format!(
-                        "material file '{names}' not found; put it beside the model"
-                    ));
+                    let folders: Vec<_> = source.base.into_iter().collect();
+                    let missing = source.missing(&folders);
+                    self.raw.warnings.warn(format!("material file '{names}' {missing}"));
                     continue;
                 };
                 let bytes = match read_file(&path, source.limits.file_bytes) {
@@ -245,7 +245,7 @@ impl State {
                         found.material.texture = textures.load(
                             &name,
                             &folders,
-                            source.limits,
+                            source,
                             &mut self.raw.images,
                             &mut self.raw.warnings,
                         );

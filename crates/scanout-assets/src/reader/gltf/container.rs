@@ -14,6 +14,11 @@ const BIN: &[u8] = b"BIN\0";
 pub(super) fn parse<'a>(source: &Source<'a>) -> Result<(Document, Option<&'a [u8]>), LoadError> {
     let bytes = source.bytes;
     if !bytes.starts_with(b"glTF") {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+        if !text.starts_with(b"{") {
+            let what = "neither GLB ('glTF') nor glTF ('{'); export it again";
+            return Err(LoadError::malformed(source.name, At::File, what));
+        }
         return Ok((document(source, bytes)?, None));
     }
     let fail = |at: usize, what: &str| LoadError::malformed(source.name, At::Byte(at as u64), what);
@@ -56,8 +61,22 @@ fn document(source: &Source<'_>, json: &[u8]) -> Result<Document, LoadError> {
             return LoadError::unsupported(source.name, At::File, what);
         }
         let line = u32::try_from(error.line()).unwrap_or(u32::MAX);
-        let text: String = error.to_string().chars().take(160).collect();
-        LoadError::malformed(source.name, At::Line(line), format!("{text}; is this glTF 2.0?"))
+        let at = At::Line(line);
+        match error.classify() {
+            serde_json::error::Category::Eof => {
+                LoadError::malformed(source.name, at, "the JSON ends early; copy the file again")
+            }
+            serde_json::error::Category::Data => {
+                let text = error.to_string();
+                let text = text.rsplit_once(" at line ").map_or(text.as_str(), |(text, _)| text);
+                let text: String = text.chars().take(160).collect();
+                LoadError::malformed(source.name, at, format!("{text}; is this glTF 2.0?"))
+            }
+            _ => {
+                let what = format!("not JSON from column {}; export it again", error.column());
+                LoadError::malformed(source.name, at, what)
+            }
+        }
     })
 }
 
@@ -108,7 +127,7 @@ pub(super) fn local_file(uri: &str, source: &Source<'_>) -> Result<PathBuf, Load
     let folders: Vec<_> = source.base.into_iter().collect();
     find_file(&percent_decoded(uri), &folders).or_else(|| find_file(uri, &folders)).ok_or_else(
         || {
-            let what = format!("'{shown}' not found; put it beside the model");
+            let what = format!("'{shown}' {}", source.missing(&folders));
             LoadError {
                 kind: crate::LoadErrorKind::Io,
                 file: source.name.into(),

@@ -158,14 +158,19 @@ fn broken_files_are_one_line() {
     let good = file(INDEXED, ONE);
     let with = |from: &str, to: &str| good.replace(from, to);
     for (text, message) in [
-        ("{".to_string(), "t.gltf:1: EOF"),
-        ("[1]".into(), "t.gltf:1: "),
+        ("{".to_string(), "t.gltf:1: the JSON ends early; copy the file again"),
+        ("{} x".into(), "t.gltf:1: not JSON from column 4; export it again"),
+        ("junk".into(), "t.gltf: neither GLB ('glTF') nor glTF ('{'); export it again"),
+        ("[1]".into(), "t.gltf: neither"),
         ("{}".into(), "t.gltf: no vertices"),
         (r#"{"asset": {"version": "1.0"}, "meshes": {}}"#.into(), "t.gltf: glTF 1.0 is not read"),
         (r#"{"meshes": 1}"#.into(), "t.gltf: glTF 1.0 is not read"),
         (with(r#""count": 4"#, r#""count": 5"#), "t.gltf: 5 elements don't fit"),
         (with(r#""count": 4"#, r#""count": 99999999999"#), "t.gltf: accessor 0 has 99999999999"),
-        (with(r#""count": 4"#, r#""count": -4"#), "t.gltf:3: invalid"),
+        (
+            with(r#""count": 4"#, r#""count": -4"#),
+            "t.gltf:3: invalid value: integer `-4`, expected usize; is this glTF 2.0?",
+        ),
         (
             with(r#""byteLength": 48"#, r#""byteLength": 18446744073709551615"#),
             "t.gltf: buffer view",

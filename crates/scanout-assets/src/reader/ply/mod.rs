@@ -293,7 +293,7 @@ impl Ply<'_> {
             material.texture = Textures::default().load(
                 name,
                 &folders,
-                self.source.limits,
+                self.source,
                 &mut self.raw.images,
                 &mut self.raw.warnings,
             );
