@@ -194,7 +194,7 @@ mod tests {
         let mut colour = [0; 64 * 3 + 5];
         assert_eq!(BandTarget::new(&mut colour, SIZE, 2).rows(), 2..5);
         assert_eq!(BandTarget::new(&mut colour, SIZE, 39).rows(), 39..40);
-        assert!(BandTarget::new(&mut colour, SIZE, 500).rows().is_empty());
+        assert_eq!(BandTarget::new(&mut colour, SIZE, 500).rows(), 40..40);
         let mut none = BandTarget::new(&mut colour, (0, 0), 0);
         assert_eq!(none.clear(Rgb565::RED), Ok(()));
         assert_eq!(colour, [0; 64 * 3 + 5]);

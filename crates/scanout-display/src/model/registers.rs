@@ -53,8 +53,8 @@ pub struct Registers {
     pub window: Window,
     /// `VSCRDEF`: rows that stay on top, rows that scroll.
     pub scroll_area: [u16; 2],
-    /// `VSCSAD`: the memory row shown first in the scrolling area.
-    pub scroll_start: u16,
+    /// `VSCSAD`: the memory row shown first in the scrolling area; none outside of scroll mode.
+    pub scroll_start: Option<u16>,
 }
 
 impl Registers {
@@ -69,7 +69,7 @@ impl Registers {
         pixel: PixelSize::Bits18,
         window: Window { columns: [0, MEMORY_COLUMNS - 1], rows: [0, MEMORY_ROWS - 1] },
         scroll_area: [0, MEMORY_ROWS],
-        scroll_start: 0,
+        scroll_start: None,
     };
 
     /// Software reset keeps `MADCTL` and `COLMOD`; the window is the whole memory as `MADCTL` turns it.
@@ -121,8 +121,9 @@ impl Registers {
             0x01 => self.software_reset(),
             0x10 => self.awake = false,
             0x11 => self.awake = true,
-            0x12 => self.partial = Some(self.partial_area),
-            0x13 => self.partial = None,
+            0x12 => (self.partial, self.scroll_start) = (Some(self.partial_area), None),
+            // Normal mode ends partial mode and scroll mode.
+            0x13 => (self.partial, self.scroll_start) = (None, None),
             0x20 => self.inverted = false,
             0x21 => self.inverted = true,
             0x28 => self.on = false,
@@ -151,7 +152,7 @@ impl Registers {
             0x36 => self.madctl = p[0],
             0x37 => {
                 within(command, [word(0); 2], MEMORY_ROWS)?;
-                self.scroll_start = word(0);
+                self.scroll_start = Some(word(0));
             }
             0x3a => {
                 // The upper digit is for the RGB interface, which has no say here.
@@ -172,11 +173,11 @@ impl Registers {
             return None;
         }
         let [top, lines] = self.scroll_area;
-        if self.partial.is_some() || row < top || row - top >= lines {
+        let Some(start) = self.scroll_start.filter(|_| row >= top && row - top < lines) else {
             return Some(row);
-        }
+        };
         // Scrolling wraps within its own rows.
-        let start = self.scroll_start.saturating_sub(top);
+        let start = start.saturating_sub(top);
         Some(top + (start + (row - top)) % lines)
     }
 }

@@ -130,6 +130,11 @@ fn the_default_is_18_bits_and_software_reset_keeps_the_format() {
     assert_eq!((r.awake, r.on, r.inverted), (false, false, false));
     assert_eq!((r.madctl, r.pixel), (0x60, PixelSize::Bits16));
     assert_eq!((r.window.columns, r.window.rows), ([0, 319], [0, 239]));
+    // What was being written can't be continued.
+    let continued: [(u8, &[u8]); 3] = [(0x2c, &[0, 1]), (0x01, &[]), (0x3c, &[])];
+    let mut cut = model.clone();
+    send(&mut cut, &[(0x11, &[])]);
+    assert_eq!(try_send(&mut cut, &continued), Err(Fault::NothingToContinue));
     // The pin resets these too.
     model.reset(false);
     model.reset(true);
@@ -177,6 +182,11 @@ fn partial_mode_and_scrolling() {
     send(&mut model, &[(0x33, &[0, 40, 0, 200, 0, 80]), (0x37, &[0, 100])]);
     let rows = [0, 35, 40, 175, 180, 235, 240, 315].map(|row| row_of(&model, row));
     assert_eq!(rows, [0, 35, 100, 235, 40, 95, 240, 315]);
+    // Partial mode and normal mode both end scrolling.
+    send(&mut model, &[(0x12, &[])]);
+    assert_eq!([25, 40].map(|row| row_of(&model, row)), [25, 0]);
+    send(&mut model, &[(0x13, &[])]);
+    assert_eq!(row_of(&model, 40), 40);
     let sum = Fault::OutsideMemory { command: 0x33, ends: [0, 320], count: 320 };
     assert_eq!(try_send(&mut model, &[(0x33, &[0, 0, 1, 64, 0, 1])]), Err(sum));
 }
