@@ -193,6 +193,24 @@ fn whole_pixel_moves_move_pixels() {
     }
 }
 
+/// A mesh with one normal a triangle looks the same in the modes Flat and Gouraud, textured in perspective too.
+#[test]
+fn face_normals_make_gouraud_flat() {
+    let mesh_data = sphere(10, 8);
+    let normals: Vec<[i16; 3]> = (0..mesh_data.triangles.len())
+        .map(|i| mesh_data.normals[mesh_data.triangles[i][0] as usize])
+        .collect();
+    let mesh = Mesh { normals: Normals::Face(&normals), ..mesh_data.mesh() };
+    let texels: Vec<u16> = (0..16 * 16).map(|i| (i * 40503) as u16).collect();
+    let texture = Texture::new(16, 16, Texels::Rgb565(&texels)).unwrap();
+    let m = scanout::scene::Material { texture: Some(&texture), ..material() };
+    let [flat, gouraud] = [Mode::Flat, Mode::Gouraud].map(|mode| -> Picture<Rgb888> {
+        let objects = [object(&mesh, &m, mode)];
+        draw(&scene(camera(160, 120), &objects), Settings::new(160, 120), 120, false)
+    });
+    assert!(flat == gouraud);
+}
+
 /// Hidden-line removal keeps only lines that a shaded picture would show, and some of all edges.
 #[test]
 fn hidden_lines_are_hidden() {

@@ -210,9 +210,7 @@ impl ObjectPass<'_> {
             }
             _ => {
                 self.triangles(vertices, &lighting, Kind::Triangle, list)?;
-                if let (Mode::Gouraud, Normals::Vertex(normals)) =
-                    (self.object.mode, self.object.mesh.normals)
-                {
+                if let Some(normals) = self.vertex_normals() {
                     self.light(vertices, normals, &lighting);
                 }
             }
@@ -229,6 +227,14 @@ impl ObjectPass<'_> {
         }
         for (vertex, &colour) in vertices.iter_mut().zip(mesh.colours) {
             vertex.rgb = modulate(colour, self.object.material.colour);
+        }
+    }
+
+    /// The normals by which vertices are lit, where they are.
+    fn vertex_normals(&self) -> Option<&[[i16; 3]]> {
+        match (self.object.mode, self.object.mesh.normals) {
+            (Mode::Gouraud, Normals::Vertex(normals)) => Some(normals),
+            _ => None,
         }
     }
 
@@ -255,7 +261,7 @@ impl ObjectPass<'_> {
     ) -> Result<(), PrepareError> {
         let mesh = self.object.mesh;
         let one_sided = !self.object.material.two_sided;
-        let lit_later = self.object.mode == Mode::Gouraud;
+        let lit_later = self.vertex_normals().is_some();
         let mut back_facing = 0;
         for (i, &triangle) in mesh.triangles.iter().enumerate() {
             let [a, b, c] = triangle.map(usize::from);
