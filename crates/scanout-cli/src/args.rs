@@ -12,7 +12,7 @@ pub use choices::{
     DrawMode, InputFormat, OutputFormat, PixelFormat, Stereo, Terminal, TextureFilter, TextureWrap,
 };
 
-use crate::values::{Backdrop, Colour, Extent, LightAt, Resolution, Triple, Up};
+use crate::values::{Backdrop, Colour, Extent, LightAt, Resolution, Span, Triple, Up};
 
 /// Render meshes without a GPU: every pixel an integer function, the same on a PC, a microcontroller and an FPGA.
 #[derive(Parser, Debug)]
@@ -29,8 +29,7 @@ use crate::values::{Backdrop, Colour, Extent, LightAt, Resolution, Triple, Up};
                   scanout turntable teapot.obj -o teapot.gif\n  \
                   scanout view teapot.obj\n\n\
                   Exit codes: 0 done, 1 failed or pictures differ, 2 command line not understood.",
-    max_term_width = 100,
-    disable_help_subcommand = true
+    max_term_width = 100
 )]
 pub struct Cli {
     /// What to do; nothing means `demo`.
@@ -91,24 +90,27 @@ pub struct SceneArgs {
     /// Format of the models, instead of guessing by name
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub input_format: Option<InputFormat>,
-    /// How surfaces are drawn [default: textured]
-    #[arg(long, value_enum, value_name = "MODE", hide_default_value = true, default_value_t)]
-    pub mode: DrawMode,
+    /// How surfaces are drawn [default: textured; wire or points for what has no faces]; flat, gouraud and phong leave the model's own textures away, but draw that of --texture
+    #[arg(long, value_enum, value_name = "MODE")]
+    pub mode: Option<DrawMode>,
     /// Picture on the surface, instead of the model's own
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, visible_alias = "texture-base-color")]
     pub texture: Option<PathBuf>,
     /// How a texel is chosen [default: mipmap]
     #[arg(long, value_enum, value_name = "FILTER")]
     pub texture_filter: Option<TextureFilter>,
-    /// What lies outside the texture [default: repeat]
+    /// What lies outside the texture [default: as the model says, else repeat]
     #[arg(long, value_enum, value_name = "WRAP")]
     pub texture_wrap: Option<TextureWrap>,
     /// Colour of the surface, instead of the model's own
     #[arg(long, value_name = "COLOR")]
     pub color: Option<Colour>,
-    /// Draw back faces too
-    #[arg(long)]
+    /// Draw back faces too [default: of models that are not closed]
+    #[arg(long, conflicts_with = "one_sided")]
     pub two_sided: bool,
+    /// Draw no back faces, even of models that are not closed
+    #[arg(long)]
+    pub one_sided: bool,
     /// Side of a point, pixels, 1 - 64
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=64))]
     pub point_size: u8,
@@ -143,7 +145,7 @@ pub struct CameraArgs {
     #[arg(long, value_name = "DEG", default_value_t = 30.0, value_parser = between(1.0, 170.0))]
     pub camera_view_angle: f64,
     /// Parallel projection
-    #[arg(long, visible_alias = "camera-orthographic")]
+    #[arg(long, visible_alias = "camera-orthographic", conflicts_with_all = ["camera_view_angle", "stereo"])]
     pub orthographic: bool,
     /// Walk around the model, degrees [default: 30, or 0 with --camera-position]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, visible_alias = "camera-azimuth-angle", value_parser = angle())]
@@ -160,7 +162,7 @@ pub struct CameraArgs {
     /// Which axis of the model points up
     #[arg(long, value_enum, value_name = "AXIS", default_value = "+Y", ignore_case = true)]
     pub up: Up,
-    /// Turn the model to frame K, 4 degrees a frame
+    /// Turn the model to frame K, 4 degrees a frame; the camera stands so that the whole turn fits
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     pub rotation_frame: Option<i32>,
     /// Axis of that turn, through the model's middle [default: as --up]
@@ -173,9 +175,15 @@ pub struct CameraArgs {
     #[arg(long, value_name = "D", requires = "stereo", value_parser = between(0.0, 1e9))]
     pub eye_distance: Option<f64>,
     /// Off-axis: the eye, from the middle of the screen, z towards the viewer
-    #[arg(long, value_name = "X,Y,Z", requires = "screen", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        requires = "screen",
+        allow_hyphen_values = true,
+        conflicts_with_all = ["camera_position", "camera_view_angle", "orthographic", "zoom"]
+    )]
     pub eye: Option<Triple>,
-    /// Off-axis: the screen's size; it stands upright through the focal point
+    /// Off-axis: the screen's size; it stands upright through the focal point, unless --azimuth, --elevation or --roll turn it
     #[arg(long, value_name = "W,H", requires = "eye")]
     pub screen: Option<Extent>,
 }
@@ -204,7 +212,7 @@ pub struct LightArgs {
     pub light_floor: f64,
     /// Fog in the background's colour: none at NEAR, all at FAR
     #[arg(long, value_name = "NEAR,FAR")]
-    pub fog: Option<Extent>,
+    pub fog: Option<Span>,
 }
 
 /// The picture and how it is drawn.
@@ -214,14 +222,9 @@ pub struct PictureArgs {
     /// Size in pixels
     #[arg(long, value_name = "W,H", default_value = "640,480")]
     pub resolution: Resolution,
-    /// Colour (name, #rrggbb or R,G,B) or picture behind the model
-    #[arg(
-        long,
-        value_name = "COLOR|IMAGE",
-        default_value = "#20242c",
-        visible_alias = "background-color"
-    )]
-    pub background: Backdrop,
+    /// Colour (name, #rrggbb or R,G,B) or picture behind the model [default: #20242c, with rgb332 #494955]
+    #[arg(long, value_name = "COLOR|IMAGE", visible_alias = "background-color")]
+    pub background: Option<Backdrop>,
     /// Pixels as the display takes them
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
     pub format: PixelFormat,
@@ -234,6 +237,16 @@ pub struct PictureArgs {
     /// Threads that draw [default: one a processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub threads: Option<u16>,
+}
+
+impl PictureArgs {
+    /// What lies behind the model. RGB332 would turn the usual grey, which has little of each colour, to olive.
+    pub fn backdrop(&self) -> Backdrop {
+        self.background.clone().unwrap_or(Backdrop::Colour(match self.format {
+            PixelFormat::Rgb332 => [0x49, 0x49, 0x55],
+            _ => [0x20, 0x24, 0x2c],
+        }))
+    }
 }
 
 /// `scanout render`.
@@ -292,7 +305,7 @@ pub struct TurntableArgs {
     /// Pictures in a turn, 1 - 3600
     #[arg(long, value_name = "N", default_value_t = 90, value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub frames: u16,
-    /// Pictures a second, 1 - 100
+    /// Pictures a second, 1 - 100; browsers slow GIFs down above 50
     #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(1..=100))]
     pub fps: u16,
     /// The scene.
@@ -386,6 +399,19 @@ mod tests {
         let Some(Command::Render(args)) = cli.command else { panic!("render") };
         assert_eq!(args.scene.camera.camera_position, Some(Triple([-1.0, -2.0, 3.0])));
         assert_eq!(args.scene.camera.azimuth, Some(-30.0));
+    }
+
+    #[test]
+    fn the_default_backgrounds_stay_grey() {
+        use scanout::output::{PixelFormat as _, Rgb332};
+        let line = "scanout render a.obj --format rgb332".split(' ');
+        let Some(Command::Render(args)) = Cli::parse_from(line).command else { panic!("render") };
+        let Backdrop::Colour(rgb) = args.scene.picture.backdrop() else { panic!("a colour") };
+        let mut row = [0];
+        Rgb332::store(&mut row, 0, Rgb332::encode(rgb));
+        assert_eq!(Rgb332::load(&row, 0), rgb, "exact in RGB332");
+        let most = (0..3).map(|i| rgb[i].abs_diff(rgb[(i + 1) % 3])).max();
+        assert!(most < Some(16), "{rgb:?}");
     }
 
     #[test]

@@ -9,6 +9,7 @@
 //! | [`cmd`] | one module a command |
 //! | [`scene_builder`] | models and options to a scene; fits the camera |
 //! | [`draw`] | drives the pipeline: bands, threads, formats |
+//! | [`blank`] | tells why there is nothing to be seen |
 //! | [`stereo`] | two eyes to one picture |
 //! | [`image_out`], [`animation`], [`compare`] | pictures in files: PNG, PPM, raw, GIF, APNG; differences |
 //! | [`terminal`] | pictures in a terminal: kitty, sixel, half blocks, characters |
@@ -20,6 +21,7 @@
 
 pub mod animation;
 pub mod args;
+pub mod blank;
 pub mod cmd;
 pub mod compare;
 pub mod draw;
@@ -33,6 +35,7 @@ pub mod values;
 pub mod window;
 
 use std::ffi::OsString;
+use std::io::Write as _;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -74,8 +77,14 @@ fn dispatch(cli: Cli) -> Result<()> {
 /// Help and version go to standard output with code 0; a wrong line is one line on standard error with code 2.
 fn report_usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        let _ = error.print(); // a closed pipe is the reader's right
-        return ExitCode::SUCCESS;
+        let printed = error.print().and_then(|()| std::io::stdout().flush());
+        return match printed.map_err(|error| Error::stdout(&error)) {
+            Ok(()) | Err(Error::BrokenPipe) => ExitCode::SUCCESS, // a closed pipe is the reader's right
+            Err(error) => {
+                narrate!("scanout: {error}");
+                error.exit_code().into()
+            }
+        };
     }
     let text = error.to_string();
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());

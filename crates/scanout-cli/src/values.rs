@@ -29,6 +29,23 @@ impl FromStr for Extent {
     }
 }
 
+/// Two distances, `NEAR,FAR`, 0 <= NEAR < FAR.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span(pub [f64; 2]);
+
+impl FromStr for Span {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let [near, far] = numbers::<2>(text, "NEAR,FAR")?;
+        if 0.0 <= near && near < far {
+            Ok(Self([near, far]))
+        } else {
+            Err("expected NEAR,FAR with 0 <= NEAR < FAR".into())
+        }
+    }
+}
+
 fn numbers<const N: usize>(text: &str, shape: &str) -> Result<[f64; N], String> {
     let mut out = [0.0f64; N];
     let mut parts = text.split(',');
@@ -226,6 +243,14 @@ mod tests {
         assert_eq!("1,4096".parse(), Ok(Resolution { width: 1, height: 4096 }));
         for bad in ["0,1", "1,4097", "12", "-1,5", "1,2,3"] {
             assert!(bad.parse::<Resolution>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn near_lies_before_far() {
+        assert_eq!("0,2".parse(), Ok(Span([0.0, 2.0])));
+        for bad in ["10,1", "1,1", "-1,1", "1"] {
+            assert!(bad.parse::<Span>().is_err(), "{bad}");
         }
     }
 

@@ -346,3 +346,216 @@ fn the_null_device_takes_everything() {
     let line = ["turntable", &cube, "-o", "/dev/null", "--frames", "2", "--resolution", "40,30"];
     assert!(run(&line).status.success());
 }
+
+#[test]
+fn options_that_exclude_each_other_exit_with_2() {
+    let cube = model("cube.obj");
+    for line in [
+        "--fog 10,1",
+        "--eye 0,0,4 --screen 4,3 --orthographic",
+        "--eye 0,0,4 --screen 4,3 --zoom 2",
+        "--eye 0,0,4 --screen 4,3 --camera-position 1,2,3",
+        "--eye 0,0,4 --screen 4,3 --camera-view-angle 20",
+        "--orthographic --camera-view-angle 20",
+        "--orthographic --stereo anaglyph",
+        "--two-sided --one-sided",
+    ] {
+        let mut all = vec!["render", &cube, "--hash"];
+        all.extend(line.split(' '));
+        let output = run(&all);
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        one_line(&stderr(&output));
+    }
+}
+
+#[test]
+fn a_camera_out_of_reach_is_named() {
+    for (option, place) in [
+        ("--camera-focal-point", "1e9,0,0"),
+        ("--camera-position", "1e30,0,0"),
+        ("--camera-position", "0,1e7,0"),
+    ] {
+        let output = render(&["--hash", option, place]);
+        assert_eq!(output.status.code(), Some(2));
+        one_line(&stderr(&output));
+        assert!(stderr(&output).contains(option), "{}", stderr(&output));
+        assert!(stderr(&output).contains("stay within"), "{}", stderr(&output));
+    }
+    // Everything within reach can be drawn.
+    for line in [
+        ["--camera-position", "0,0,1600000"].as_slice(),
+        &["--camera-focal-point", "1200000,0,0"],
+        &["--camera-position", "0,0,1600000", "--camera-focal-point", "1200000,0,0"],
+    ] {
+        let output = render(&[&["--hash"], line].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn help_is_a_command_too() {
+    let words = |line: &[&str]| stdout(&run(line));
+    assert!(words(&["help"]).contains("Usage: scanout"));
+    assert!(words(&["help", "render"]).contains("--camera-position"));
+    let lone = run(&["view", &model("cube.obj")]);
+    assert!(stderr(&lone).starts_with("scanout: window: neither WAYLAND_DISPLAY"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn help_to_a_full_disk_fails() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    for line in [&["--help"][..], &["man"], &["completions", "bash"]] {
+        let output = scanout().args(line).stdout(full.try_clone().unwrap()).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{line:?}");
+        one_line(&stderr(&output));
+    }
+}
+
+#[test]
+fn a_fast_gif_is_told() {
+    let (cube, path) = (model("cube.obj"), scratch("fast.gif"));
+    let path = path.to_str().unwrap();
+    let make = |fps| {
+        let line = ["turntable", &cube, "--frames", "2", "--resolution", "20,15", "--fps", fps];
+        stderr(&run(&[&line[..], &["-o", path]].concat()))
+    };
+    assert!(make("51").contains("browsers"));
+    assert!(!make("50").contains("browsers"));
+}
+
+/// Draws a text as an OBJ model; what is said on standard error.
+fn told(name: &str, text: &str, options: &str) -> String {
+    let path = scratch(name);
+    std::fs::write(&path, text).unwrap();
+    let mut line = vec!["render", path.to_str().unwrap(), "--hash", "--resolution", "40,30"];
+    line.extend(options.split_whitespace());
+    let output = run(&line);
+    assert!(output.status.success(), "{}", stderr(&output));
+    stderr(&output)
+}
+
+const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+const EDGES: &str = "v 0 0 0\nv 1 0 0\nv 1 1 1\nl 1 2 3\n";
+const DOTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 1\np 1 2 3\n";
+
+#[test]
+fn a_blank_picture_is_told_with_the_remedy() {
+    assert_eq!(told("quad.obj", QUAD, ""), "");
+    assert_eq!(told("quad.obj", QUAD, "--azimuth 180"), "", "open models are drawn two-sided");
+    let cases = [
+        ("quad.obj", QUAD, "--azimuth 180 --one-sided", "--two-sided"),
+        ("quad.obj", QUAD, "--fog 0.1,0.2", "fog"),
+        ("quad.obj", QUAD, "--fog 0.1,0.2 --dither --format rgb565", "fog"),
+        ("quad.obj", QUAD, "--camera-position 9,0,9 --camera-focal-point 20,0,9", "camera options"),
+        ("quad.obj", QUAD, "--color black --background black", "--color"),
+        ("edges.obj", EDGES, "--mode gouraud", "--mode wire"),
+        ("dots.obj", DOTS, "--mode wire", "--mode points"),
+    ];
+    for (name, text, options, remedy) in cases {
+        let told = told(name, text, options);
+        one_line(&told);
+        assert!(told.contains("nothing is to be seen") && told.contains(remedy), "{told}");
+    }
+    let cube = std::fs::read_to_string(model("cube.obj")).unwrap();
+    let cube: String =
+        cube.lines().filter(|l| !l.starts_with("mtllib")).fold(String::new(), |a, l| a + l + "\n");
+    let inside = "--camera-position 0.1,0.1,0.1 --camera-focal-point 1,0,0";
+    assert!(told("inside.obj", &cube, inside).contains("use --two-sided"));
+    assert!(!told("inside.obj", &cube, &format!("{inside} --two-sided")).contains("nothing"));
+}
+
+#[test]
+fn models_without_faces_choose_their_mode() {
+    assert!(told("edges.obj", EDGES, "").contains("drawn as wire"));
+    assert!(told("dots.obj", DOTS, "").contains("drawn as points"));
+    assert_eq!(told("edges.obj", EDGES, "--mode wire"), "");
+    // Beside a model with faces, lines and points are still seen.
+    let quad = scratch("beside.obj");
+    std::fs::write(&quad, QUAD).unwrap();
+    let edges = scratch("beside-edges.obj");
+    std::fs::write(&edges, "v 0 0 2\nv 1 1 2\nl 1 2\n").unwrap();
+    let (quad, edges) = (quad.to_str().unwrap(), edges.to_str().unwrap());
+    let count = |more: &[&str]| {
+        let line = ["render", quad, edges, "--json", "--resolution", "40,30"];
+        let output = run(&[&line[..], more].concat());
+        let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        value["frames"][0]["primitives"].as_u64().unwrap()
+    };
+    assert_eq!(count(&[]), count(&["--mode", "gouraud"]) + 1);
+}
+
+#[test]
+fn half_blocks_in_a_pipe_obey_colorterm() {
+    let teapot = model("teapot.obj");
+    let line = ["render", &teapot, "--terminal", "half-blocks", "--resolution", "40,30"];
+    let output = scanout().args(line).env("COLORTERM", "truecolor").output().unwrap();
+    assert!(output.stdout.starts_with(b"\x1b[38;2;"));
+}
+
+/// Runs the program in a terminal of 80 x 24 that never answers; everything that it wrote there.
+#[cfg(target_os = "linux")]
+fn in_terminal(line: &str, variable: (&str, &str)) -> Option<String> {
+    let program = scanout().get_program().to_str().unwrap().to_string();
+    let command = format!("stty cols 80 rows 24; {program} {line}");
+    let mut script = std::process::Command::new("script");
+    script.args(["-qec", &command, "/dev/null"]).stdin(Stdio::null());
+    for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "NO_COLOR", "COLORTERM"] {
+        script.env_remove(name);
+    }
+    let output = script.env(variable.0, variable.1).output().ok()?; // not installed
+    Some(stdout(&output))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_plain_terminal_is_sent_no_control_sequences() {
+    let line = format!("render {} --resolution 80,60", model("teapot.obj"));
+    for variable in [("NO_COLOR", "1"), ("TERM", "dumb")] {
+        let start = std::time::Instant::now();
+        let Some(told) = in_terminal(&line, variable) else { return };
+        assert!(told.contains('#') && !told.contains('\x1b'), "{told:?}");
+        assert!(start.elapsed().as_millis() < 900, "it waited for an answer");
+    }
+    let turn = format!(
+        "turntable {} --frames 3 --resolution 40,30 -o {}",
+        model("cube.obj"),
+        scratch("plain.gif").display()
+    );
+    let Some(told) = in_terminal(&turn, ("TERM", "dumb")) else { return };
+    assert!(told.contains("wrote") && !told.contains('\x1b'), "{told:?}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_demonstration_leaves_its_picture_in_sight() {
+    let line = format!("demo -o {}", scratch("in-sight").display());
+    let Some(told) = in_terminal(&line, ("TERM", "dumb")) else { return };
+    let lines: Vec<&str> = told.lines().map(str::trim_end).collect();
+    let last = &lines[lines.len() - 23..]; // and the prompt
+    assert!(last.iter().any(|line| line.contains("Try next")), "{told}");
+    let from_picture = lines.iter().position(|line| line.is_empty() || line.contains('@'));
+    assert!(from_picture.is_some_and(|top| top >= lines.len() - 23), "{told}");
+}
+
+#[test]
+fn the_model_says_what_lies_outside_its_texture() {
+    let photo = std::path::PathBuf::from(model("cube.ppm"));
+    std::fs::copy(photo, scratch("wrap.ppm")).unwrap();
+    let hash = |wrap: &str, options: &[&str]| {
+        let mtl = format!("newmtl a\nKd 1 1 1\nmap_Kd {wrap}wrap.ppm\n");
+        std::fs::write(scratch("wrap.mtl"), mtl).unwrap();
+        let obj = "mtllib wrap.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\
+                   vt 0 0\nvt 3 0\nvt 3 3\nvt 0 3\nf 1/1 2/2 3/3 4/4\n";
+        let path = scratch("wrap.obj");
+        std::fs::write(&path, obj).unwrap();
+        let line = ["render", path.to_str().unwrap(), "--hash", "--resolution", "40,30"];
+        let output = run(&[&line[..], options].concat());
+        assert!(output.stderr.is_empty(), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let (repeated, clamped) = (hash("", &[]), hash("-clamp on ", &[]));
+    assert_ne!(repeated, clamped);
+    assert_eq!(hash("", &["--texture-wrap", "clamp"]), clamped);
+    assert_eq!(hash("-clamp on ", &["--texture-wrap", "repeat"]), repeated);
+}

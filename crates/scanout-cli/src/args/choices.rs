@@ -116,7 +116,7 @@ pub enum OutputFormat {
 /// How a picture is shown in a terminal.
 #[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Terminal {
-    /// Ask the terminal; NO_COLOR means ascii
+    /// Ask the terminal; NO_COLOR or TERM=dumb means ascii, unasked
     #[default]
     Auto,
     /// The kitty graphics protocol

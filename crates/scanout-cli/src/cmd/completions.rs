@@ -12,5 +12,6 @@ pub fn run(args: &CompletionsArgs) -> Result<()> {
     // Into memory first: the generator panics when its sink fails.
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "scanout", &mut text);
-    io::stdout().write_all(&text).map_err(|error| Error::stdout(&error))
+    let mut out = io::stdout().lock();
+    out.write_all(&text).and_then(|()| out.flush()).map_err(|error| Error::stdout(&error))
 }

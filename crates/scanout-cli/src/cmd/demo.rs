@@ -31,12 +31,13 @@ pub fn run(args: &DemoArgs) -> Result<()> {
             Err(NoWindow(why)) => narrate!("scanout: no window ({why})"),
         }
     }
-    if terminal::will_show(args.terminal) {
-        let picture = still(&earth, &["--elevation", "25"])?.picture;
-        terminal::show(&picture, args.terminal)?;
-    }
     image_out::create_folder(&args.output, "name a folder with -o, or move the file away")?;
     files(&earth, &args.output)?;
+    // Last, and with room for the text after it, so that it stays in sight.
+    if terminal::will_show(args.terminal) {
+        let picture = still(&earth, &["--elevation", "25"])?.picture;
+        terminal::show(&picture, args.terminal, TRY_NEXT)?;
+    }
     try_next();
     Ok(())
 }
@@ -93,6 +94,9 @@ fn still(model: &Model, options: &[&str]) -> Result<Frame> {
     let shot = stage.shot(&args, size, Fit::Tight)?;
     draw::frame(&stage, &shot, &Options::new(&args.picture))
 }
+
+/// Lines that [`try_next`] writes.
+const TRY_NEXT: usize = 6;
 
 /// What to do now.
 fn try_next() {

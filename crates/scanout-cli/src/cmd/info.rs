@@ -52,13 +52,13 @@ fn describe(model: Model, name: &str) -> Result<Value> {
         .collect();
     let warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
     let [low, high] = model.bounds();
-    let (placement, stats) = (model.placement, model.stats);
+    let (placement, stats, closed) = (model.placement, model.stats, model.closed);
     let flash = flash(&model);
     let args = scene_args(&[]);
     let mut stage = Stage::with_models(vec![model], &args)?;
     let shot = stage.shot(&args, SCREEN, Fit::Tight)?;
     let mut store = |mode| {
-        stage.mode = mode;
+        stage.set_mode(mode);
         stage.with_scenes(&shot, |scene, _| Ok(draw::memory(scene))).map(|eyes| eyes[0])
     };
     let (surface, wire) = (store(DrawMode::Textured)?, store(DrawMode::Wire)?);
@@ -75,6 +75,7 @@ fn describe(model: Model, name: &str) -> Result<Value> {
         "triangles": stats.triangles,
         "edges": stats.edges,
         "degenerate": stats.degenerate,
+        "closed": closed,
         "bounds": { "low": low, "high": high },
         "scale": placement.scale,
         "offset": placement.offset,
@@ -164,7 +165,12 @@ fn table(value: &Value) -> String {
             file["polygons"],
         ),
     );
-    line("triangles", plain(&value["triangles"]));
+    let surface = match (value["triangles"].as_u64(), value["closed"].as_bool()) {
+        (Some(0), _) => "",
+        (_, Some(true)) => ", closed",
+        _ => ", not closed: drawn two-sided",
+    };
+    line("triangles", format!("{}{surface}", value["triangles"]));
     line("edges", plain(&value["edges"]));
     line("from", vector(&value["bounds"]["low"]));
     line("to", vector(&value["bounds"]["high"]));

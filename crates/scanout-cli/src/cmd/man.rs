@@ -11,7 +11,8 @@ use crate::error::{Error, Result};
 /// Writes the man page to standard output.
 pub fn run() -> Result<()> {
     let page = page().map_err(|error| Error::stdout(&error))?;
-    io::stdout().write_all(&page).map_err(|error| Error::stdout(&error))
+    let mut out = io::stdout().lock();
+    out.write_all(&page).and_then(|()| out.flush()).map_err(|error| Error::stdout(&error))
 }
 
 fn page() -> io::Result<Vec<u8>> {
@@ -23,7 +24,7 @@ fn page() -> io::Result<Vec<u8>> {
     man.render_name_section(&mut page)?;
     man.render_synopsis_section(&mut page)?;
     man.render_description_section(&mut page)?;
-    for sub in command.get_subcommands() {
+    for sub in command.get_subcommands().filter(|sub| sub.get_name() != "help") {
         let name = sub.get_name().to_uppercase();
         writeln!(page, ".SH \"SCANOUT {name}\"")?;
         let about = sub.get_about().map(ToString::to_string).unwrap_or_default();

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::image_out::{self, Picture, is_dash};
 use crate::scene_builder::view::Fit;
 use crate::scene_builder::{Shot, Stage};
-use crate::{narrate, terminal};
+use crate::{blank, narrate, terminal};
 
 /// Draws the picture and does with it what the options say.
 pub fn run(args: &RenderArgs) -> Result<()> {
@@ -39,9 +39,11 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let reference = args.reference.as_deref().map(|path| Reference::new(path, args)).transpose()?;
     let picture = &args.scene.picture;
     let size = (picture.resolution.width, picture.resolution.height);
-    let stage = Stage::load(&args.scene)?;
+    let mut stage = Stage::load(&args.scene)?;
     let shot = stage.shot(&args.scene, size, Fit::Tight)?;
-    let frame = draw::frame(&stage, &shot, &Options::new(picture))?;
+    let options = Options::new(picture);
+    let frame = draw::frame(&stage, &shot, &options)?;
+    blank::tell(&mut stage, &shot, &options, &args.scene.camera, &frame)?;
 
     if let (Some(path), Some(format)) = (&args.output, format) {
         image_out::write(path, format, &frame.picture, &frame.bytes)?;
@@ -49,7 +51,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
             narrate!("scanout: wrote {}", path.display());
         }
     } else if nowhere {
-        terminal::show(&frame.picture, args.terminal)?;
+        terminal::show(&frame.picture, args.terminal, 0)?;
     }
     if args.hash {
         print(&format!("{:016x}\n", frame.hash))?;
@@ -92,7 +94,7 @@ fn json(frame: &Frame, stage: &Stage, shot: &Shot, args: &RenderArgs) -> serde_j
         "width": shot.size.0,
         "height": shot.size.1,
         "format": format!("{:?}", args.scene.picture.format).to_lowercase(),
-        "mode": stage.mode.name(),
+        "mode": stage.mode().name(),
         "hash": format!("{:016x}", frame.hash),
         "camera": {
             "position": shot.view.eye(),

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::image_out::is_dash;
 use crate::scene_builder::view::Fit;
 use crate::scene_builder::{Shot, Stage};
-use crate::{narrate, progress};
+use crate::{blank, narrate, progress};
 
 /// How a turntable is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,12 +23,19 @@ pub struct Turn {
 /// Draws the turntable.
 pub fn run(args: &TurntableArgs) -> Result<()> {
     animation::container_for(&args.output)?;
+    if args.fps > 50 && animation::container_for(&args.output)? == Container::Gif {
+        narrate!(
+            "scanout: browsers slow a GIF of more than 50 pictures a second; a .png keeps pace"
+        );
+    }
     let picture = &args.scene.picture;
     let size = (picture.resolution.width, picture.resolution.height);
-    let stage = Stage::load(&args.scene)?;
+    let mut stage = Stage::load(&args.scene)?;
     let shot = stage.shot(&args.scene, size, Fit::Turn)?;
     let turn = Turn { frames: args.frames, fps: args.fps };
-    write(&stage, &shot, &Options::new(picture), turn, &args.output)?;
+    let options = Options::new(picture);
+    blank::tell_first(&mut stage, &shot, &options, &args.scene.camera)?;
+    write(&stage, &shot, &options, turn, &args.output)?;
     if !is_dash(&args.output) {
         narrate!("scanout: wrote {} ({} frames)", args.output.display(), args.frames);
     }

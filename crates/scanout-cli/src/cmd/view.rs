@@ -12,7 +12,7 @@ use crate::scene_builder::vector::{along, sin_cos};
 use crate::scene_builder::view::Fit;
 use crate::scene_builder::{Shot, Stage};
 use crate::window::{self, Content, Input, NoWindow, Setting};
-use crate::{narrate, terminal};
+use crate::{blank, narrate, terminal};
 
 /// Degrees that a pixel of dragging turns.
 const DEGREES_A_PIXEL: f64 = 0.4;
@@ -24,8 +24,9 @@ const SPIN: f64 = 30.0;
 pub fn run(args: &ViewArgs) -> Result<()> {
     let picture = &args.scene.picture;
     let size = (picture.resolution.width, picture.resolution.height);
-    let stage = Stage::load(&args.scene)?;
+    let mut stage = Stage::load(&args.scene)?;
     let shot = stage.shot(&args.scene, size, Fit::Ball)?;
+    blank::tell_first(&mut stage, &shot, &Options::new(picture), &args.scene.camera)?;
     let name =
         args.scene.models.iter().map(|path| {
             path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
@@ -38,7 +39,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         Ok(outcome) => outcome,
         Err(NoWindow(why)) if terminal::will_show(Terminal::Auto) => {
             narrate!("scanout: no window ({why}), so the picture is in the terminal");
-            terminal::show(&viewer.draw(size.0, size.1, 0.0)?, Terminal::Auto).map(drop)
+            terminal::show(&viewer.draw(size.0, size.1, 0.0)?, Terminal::Auto, 0).map(drop)
         }
         Err(NoWindow(why)) => Err(Error::failed(
             "window",
@@ -87,7 +88,7 @@ impl Viewer {
 
     fn key(&mut self, key: char) {
         match key {
-            '1'..='7' => self.stage.mode = DrawMode::ALL[key as usize - '1' as usize],
+            '1'..='7' => self.stage.set_mode(DrawMode::ALL[key as usize - '1' as usize]),
             'r' => {
                 let size = self.shot.size;
                 self.shot = Shot { size, ..self.start.clone() };
@@ -159,7 +160,7 @@ impl Content for Viewer {
     }
 
     fn title(&self) -> String {
-        format!("{} - {}", self.name, self.stage.mode.name())
+        format!("{} - {}", self.name, self.stage.mode().name())
     }
 
     fn rate(&mut self, rate: f64, milliseconds: f64) {

@@ -8,15 +8,24 @@ use scanout_assets::{Image, MaterialBuf};
 use crate::args::{LightArgs, SceneArgs, TextureFilter, TextureWrap};
 use crate::values::LightAt;
 
+/// Which faces are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sides {
+    /// As the material says; both of models that are not closed.
+    Own,
+    Front,
+    Both,
+}
+
 /// What the options say about surfaces and light.
 #[derive(Clone, Debug)]
 pub struct Surface {
     colour: Option<[u8; 3]>,
     weights: [Option<f64>; 3],
     shininess: Option<u16>,
-    two_sided: bool,
+    sides: Sides,
     filter: Filter,
-    wrap: Wrap,
+    wrap: Option<Wrap>,
     /// Lights.
     pub lights: Vec<LightAt>,
     /// L_min.
@@ -37,17 +46,21 @@ impl Surface {
             colour: args.color.map(|colour| colour.0),
             weights: [ambient, diffuse, specular],
             shininess: args.light.shininess.map(|s| s.round() as u16),
-            two_sided: args.two_sided,
+            sides: match (args.two_sided, args.one_sided) {
+                (true, _) => Sides::Both,
+                (_, true) => Sides::Front,
+                _ => Sides::Own,
+            },
             filter: match args.texture_filter {
                 Some(TextureFilter::Nearest) => Filter::Nearest,
                 _ => Filter::Bilinear,
             },
-            wrap: match args.texture_wrap {
-                None | Some(TextureWrap::Repeat) => Wrap::Repeat,
-                Some(TextureWrap::Mirror) => Wrap::Mirror,
-                Some(TextureWrap::Clamp) => Wrap::Clamp,
-                Some(TextureWrap::Border) => Wrap::Border,
-            },
+            wrap: args.texture_wrap.map(|wrap| match wrap {
+                TextureWrap::Repeat => Wrap::Repeat,
+                TextureWrap::Mirror => Wrap::Mirror,
+                TextureWrap::Clamp => Wrap::Clamp,
+                TextureWrap::Border => Wrap::Border,
+            }),
             lights: args.light.light.clone(),
             light_floor: Q16::from_f64(args.light.light_floor),
             fog: args.light.fog.map(|fog| fog.0),
@@ -56,23 +69,24 @@ impl Surface {
         }
     }
 
-    /// An image as the pipeline reads it.
-    pub fn texture<'a>(&self, image: &'a Image) -> Texture<'a> {
+    /// An image as the pipeline reads it; `own` is what the model wants outside it.
+    pub fn texture<'a>(&self, image: &'a Image, own: [Wrap; 2]) -> Texture<'a> {
         Texture {
             width: image.width,
             height: image.height,
             levels: image.levels,
             texels: Texels::Rgb888(&image.rgb),
-            wrap: [self.wrap; 2],
+            wrap: self.wrap.map_or(own, |wrap| [wrap; 2]),
             filter: self.filter,
             border: [0; 3],
         }
     }
 
-    /// A material of the file with what the options replace.
+    /// A material of the file, on a closed or an open model, with what the options replace.
     pub fn material<'a>(
         &self,
         own: &MaterialBuf,
+        closed: bool,
         texture: Option<&'a Texture<'a>>,
     ) -> Material<'a> {
         let weight = |i: usize, own: f32| Q16::from_f64(self.weights[i].unwrap_or(own.into()));
@@ -83,7 +97,12 @@ impl Surface {
             specular: weight(2, own.specular),
             shininess: self.shininess.unwrap_or(own.shininess),
             texture,
-            two_sided: self.two_sided || own.two_sided,
+            two_sided: match self.sides {
+                Sides::Both => true,
+                Sides::Front => false,
+                // From outside no back face of a closed model is seen.
+                Sides::Own => own.two_sided || !closed,
+            },
         }
     }
 }

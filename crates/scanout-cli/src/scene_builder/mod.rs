@@ -15,7 +15,7 @@ use scanout::math::{Angle, Mat4, Quat, Vec3};
 use scanout::mesh::Mesh;
 use scanout::scene::{Background, Fog, Light, LightKind, Material, Mode, Object, Scene};
 use scanout::texture::Texture;
-use scanout_assets::{Format, Image, LoadOptions, Model};
+use scanout_assets::{Format, Image, LoadOptions, MeshBuf, Model, Part};
 
 use self::vector::{along, length, minus, normalised};
 use self::view::{Fit, Subject, View, World};
@@ -38,10 +38,25 @@ pub struct Stage {
     backdrop: Option<Picture>,
     /// What the camera must see.
     pub subject: Subject,
-    /// How surfaces are drawn; the window's keys change it.
-    pub mode: DrawMode,
+    /// How surfaces are drawn.
+    mode: DrawMode,
+    /// The user chose the mode, so that it is no other for parts that it shows nothing of.
+    chosen: bool,
+    /// What the next pictures do without.
+    pub without: Option<Without>,
     surface: Surface,
     colour: [u8; 3],
+}
+
+/// What a picture can do without, to find out what hides the models.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Without {
+    /// The models.
+    Objects,
+    /// Culling of back faces.
+    Culling,
+    /// Fog.
+    Fog,
 }
 
 /// What changes from frame to frame.
@@ -98,7 +113,11 @@ impl Stage {
         }
         let read = |path: &PathBuf| load_model(path, args.input_format);
         let models = args.models.iter().map(read).collect::<Result<_>>()?;
-        Self::with_models(models, args)
+        let stage = Self::with_models(models, args)?;
+        if !stage.has_triangles() && args.mode.is_none() {
+            narrate!("scanout: the model has no faces, so it is drawn as {}", stage.mode.name());
+        }
+        Ok(stage)
     }
 
     /// A stage for models that are already there.
@@ -116,19 +135,51 @@ impl Stage {
         if texture.is_some() && parts().all(|part| part.mesh.uvs.is_empty()) {
             narrate!("scanout: --texture shows nothing: the model has no texture coordinates");
         }
-        let (colour, backdrop) = match &args.picture.background {
-            Backdrop::Colour(rgb) => (*rgb, None),
-            Backdrop::Image(path) => ([0; 3], Some(load_backdrop(path)?)),
+        let (colour, backdrop) = match args.picture.backdrop() {
+            Backdrop::Colour(rgb) => (rgb, None),
+            Backdrop::Image(path) => ([0; 3], Some(load_backdrop(&path)?)),
+        };
+        let own = match (any(&models, |mesh| !mesh.triangles.is_empty()), any(&models, has_edges)) {
+            (true, _) => DrawMode::default(),
+            (false, true) => DrawMode::Wire,
+            (false, false) => DrawMode::Points,
         };
         Ok(Self {
             subject: subject(&models)?,
             texture,
             backdrop,
-            mode: args.mode,
+            mode: args.mode.unwrap_or(own),
+            chosen: args.mode.is_some(),
+            without: None,
             surface: Surface::new(args),
             colour,
             models,
         })
+    }
+
+    /// How surfaces are drawn.
+    pub fn mode(&self) -> DrawMode {
+        self.mode
+    }
+
+    /// Draws everything this way from now on.
+    pub fn set_mode(&mut self, mode: DrawMode) {
+        (self.mode, self.chosen) = (mode, true);
+    }
+
+    /// Is there one colour behind the models, and no picture?
+    pub fn background_is_plain(&self) -> bool {
+        self.backdrop.is_none()
+    }
+
+    /// Has any model faces?
+    pub fn has_triangles(&self) -> bool {
+        any(&self.models, |mesh| !mesh.triangles.is_empty())
+    }
+
+    /// Has any model edges?
+    pub fn has_edges(&self) -> bool {
+        any(&self.models, has_edges)
     }
 
     /// The first shot that the options ask for, of a picture `size`.
@@ -152,12 +203,13 @@ impl Stage {
     ) -> Result<Vec<R>> {
         let world = shot.view.world();
         let lights = self.lights(&shot.view, &world);
-        let fog = self.surface.fog.map(|[start, end]| Fog::Linear {
+        let fog = self.surface.fog.filter(|_| self.without != Some(Without::Fog));
+        let fog = fog.map(|[start, end]| Fog::Linear {
             colour: self.colour,
             start: world.length(start),
             end: world.length(end),
         });
-        let textures: Vec<Vec<Texture>> = self.textures();
+        let textures: Vec<Vec<Option<Texture>>> = self.textures();
         let materials: Vec<Vec<Material>> = self.materials(&textures);
         let meshes: Vec<Vec<Mesh>> = self
             .models
@@ -167,12 +219,13 @@ impl Stage {
         let mut objects = Vec::new();
         for ((model, meshes), materials) in self.models.iter().zip(&meshes).zip(&materials) {
             let transform = placed(model, &world, shot);
-            for (mesh, material) in meshes.iter().zip(materials) {
+            let shown = if self.without == Some(Without::Objects) { &[][..] } else { &meshes[..] };
+            for (mesh, material) in shown.iter().zip(materials) {
                 objects.push(Object {
                     mesh,
                     material,
                     transform,
-                    mode: self.pipeline_mode(),
+                    mode: self.pipeline_mode(mesh),
                     smooth_lines: self.surface.smooth_lines,
                     point_size: self.surface.point_size,
                 });
@@ -198,8 +251,13 @@ impl Stage {
         Ok(results)
     }
 
-    fn pipeline_mode(&self) -> Mode {
-        match self.mode {
+    fn pipeline_mode(&self, mesh: &Mesh) -> Mode {
+        let mode = match self.mode {
+            mode if self.chosen || !mesh.triangles.is_empty() => mode,
+            _ if !mesh.edges.is_empty() => DrawMode::Wire,
+            _ => DrawMode::Points,
+        };
+        match mode {
             DrawMode::Points => Mode::Points,
             DrawMode::Wire => Mode::Wire,
             DrawMode::Hidden => Mode::Hidden,
@@ -253,6 +311,15 @@ fn placed(model: &Model, world: &World, shot: &Shot) -> Mat4 {
     }
 }
 
+/// Is this so for any part of the models?
+fn any(models: &[Model], so: impl Fn(&MeshBuf) -> bool) -> bool {
+    models.iter().flat_map(|model| &model.parts).any(|part| so(&part.mesh))
+}
+
+fn has_edges(mesh: &MeshBuf) -> bool {
+    !mesh.edges.is_empty()
+}
+
 /// The ball around all models.
 fn subject(models: &[Model]) -> Result<Subject> {
     let mut points = Vec::new();
@@ -295,30 +362,31 @@ fn load_backdrop(path: &Path) -> Result<Picture> {
 
 /// The borrowed halves of a scene.
 impl Stage {
-    fn textures(&self) -> Vec<Vec<Texture<'_>>> {
-        let own = |image| self.surface.texture(image);
-        self.models
-            .iter()
-            .map(|model| match &self.texture {
-                Some(image) => vec![own(image)],
-                None => model.images.iter().map(own).collect(),
-            })
-            .collect()
+    /// The texture of each part.
+    fn textures(&self) -> Vec<Vec<Option<Texture<'_>>>> {
+        let of = |model| move |part| self.texture_of(model, part);
+        self.models.iter().map(|model| model.parts.iter().map(of(model)).collect()).collect()
     }
 
-    fn materials<'a>(&self, textures: &'a [Vec<Texture<'a>>]) -> Vec<Vec<Material<'a>>> {
-        let textured = self.mode == DrawMode::Textured || self.texture.is_some();
+    fn texture_of<'a>(&'a self, model: &'a Model, part: &Part) -> Option<Texture<'a>> {
+        let image = match &self.texture {
+            Some(image) => Some(image),
+            None if self.mode != DrawMode::Textured => None,
+            None => part.material.texture.and_then(|index| model.images.get(index)),
+        };
+        image.map(|image| self.surface.texture(image, part.material.wrap))
+    }
+
+    fn materials<'a>(&self, textures: &'a [Vec<Option<Texture<'a>>>]) -> Vec<Vec<Material<'a>>> {
+        let of = |model: &Model, part: &Part, texture: &'a Option<Texture<'a>>| {
+            let own = self.surface.material(&part.material, model.closed, texture.as_ref());
+            Material { two_sided: own.two_sided || self.without == Some(Without::Culling), ..own }
+        };
         self.models
             .iter()
             .zip(textures)
             .map(|(model, textures)| {
-                let material = |part: &scanout_assets::Part| {
-                    let index =
-                        if self.texture.is_some() { Some(0) } else { part.material.texture };
-                    let texture = index.and_then(|index| textures.get(index)).filter(|_| textured);
-                    self.surface.material(&part.material, texture)
-                };
-                model.parts.iter().map(material).collect()
+                model.parts.iter().zip(textures).map(|(part, t)| of(model, part, t)).collect()
             })
             .collect()
     }

@@ -29,6 +29,23 @@ const RADIUS: f64 = 64.0;
 /// The farthest that a camera may stand in the pipeline's world.
 const REACH: f64 = 8192.0;
 
+/// The farthest that a camera may stand from the subject's middle, and look at, in radii: depth has 16 bits.
+const FAR_AWAY: f64 = 100_000.0;
+
+/// Refuses a place out of reach, and names the option that gave it.
+fn within_reach(subject: &Subject, option: &str, place: V3) -> Result<()> {
+    let limit = subject.radius * FAR_AWAY;
+    let distance = length(minus(place, subject.centre));
+    if distance <= limit {
+        return Ok(());
+    }
+    let [x, y, z] = subject.centre;
+    Err(Error::usage(
+        format_args!("{option} is {distance:.4e} away from the model"),
+        format_args!("stay within {limit:.4e} of its middle {x:.4},{y:.4},{z:.4}"),
+    ))
+}
+
 /// What is to be seen: the ball around it, and its points.
 #[derive(Clone, Debug)]
 pub struct Subject {
@@ -123,6 +140,11 @@ impl View {
             })?;
         }
         let focal = args.camera_focal_point.map_or(subject.centre, |focal| focal.0);
+        within_reach(subject, "--camera-focal-point", focal)?;
+        let position = args.camera_position.map_or(subject.centre, |position| position.0);
+        within_reach(subject, "--camera-position", position)?;
+        let eye = args.eye.map_or([0.0; 3], |eye| eye.0);
+        within_reach(subject, "--eye", along(subject.centre, eye, 1.0))?;
         let standing = args.camera_position.map(|position| minus(position.0, focal));
         let back = match standing {
             None => front,
@@ -221,10 +243,17 @@ impl View {
             let (focal, basis, flat) = (self.focal, self.basis, self.orthographic);
             let deep = |rel: V3| if flat { 0.0 } else { dot(rel, basis[2]) };
             let rels = || points.iter().map(|p| minus(*p, focal));
+            // Each eye sees a point e to the side, e deep / distance of which the sheared frustum takes back:
+            // distance >= deep + (|x| + e |deep| / distance) fx, solved for the distance.
+            let eye = self.stereo.and_then(|(_, apart)| apart).unwrap_or(0.0) / 2.0;
+            let by_both_eyes = |rel: V3| {
+                let b = deep(rel) + dot(rel, basis[0]).abs() * fx;
+                b / 2.0 + (b * b / 4.0 + eye * deep(rel).abs() * fx).sqrt()
+            };
             let distance = rels()
                 .map(|rel| {
                     let side = |i: usize| dot(rel, basis[i]).abs() * factors[i];
-                    deep(rel) + side(0).max(side(1))
+                    (deep(rel) + side(0).max(side(1))).max(by_both_eyes(rel))
                 })
                 .fold(self.radius * 1e-6, f64::max);
             self.distance = distance;
@@ -399,6 +428,18 @@ mod tests {
                 }
                 assert!(most < 1.0 && most > 0.6, "{options} {size:?}: {most}");
             }
+        }
+    }
+
+    #[test]
+    fn both_eyes_see_the_whole_model() {
+        for apart in ["0.1", "3", "20", "200"] {
+            let args = scene_args(&["--stereo", "anaglyph", "--eye-distance", apart]).camera;
+            let view = View::new(&args, &subject(), 1.5, Fit::Tight).unwrap();
+            let both = view.cameras(600, 400).unwrap();
+            let reaches = both.iter().map(|eye| reach(&eye.0, &view.world(), &subject().points));
+            let most = reaches.fold(0.0, f64::max);
+            assert!((0.9..1.001).contains(&most), "{apart}: {most}");
         }
     }
 

@@ -1,7 +1,8 @@
 //! Pictures in a terminal.
 //!
 //! The terminal is asked what it can show (module `query`); `TERM` is never trusted, because it doesn't survive ssh,
-//! containers and multiplexers. `--terminal` forces a way. With `NO_COLOR` set, the automatic choice is characters.
+//! containers and multiplexers. `--terminal` forces a way. With `NO_COLOR` set, or `TERM=dumb`, the terminal is asked nothing
+//! and the automatic choice is characters.
 
 mod encode;
 mod query;
@@ -43,9 +44,8 @@ impl Abilities {
     };
 
     /// The best way that these abilities allow.
-    pub fn best(&self, no_color: bool) -> Terminal {
+    pub fn best(&self) -> Terminal {
         match self {
-            _ if no_color => Terminal::Ascii,
             Self { kitty: true, .. } => Terminal::Kitty,
             Self { sixel: true, .. } => Terminal::Sixel,
             Self { answers: true, .. } => Terminal::HalfBlocks,
@@ -54,10 +54,19 @@ impl Abilities {
     }
 }
 
-/// Has the user asked for no colours (`NO_COLOR` set and not empty, <https://no-color.org>)?
-pub fn no_color() -> bool {
+/// Is the terminal to be spared control sequences: `NO_COLOR` set and not empty (<https://no-color.org>), or `TERM=dumb`?
+pub fn plain() -> bool {
     std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
+        || std::env::var_os("TERM").is_some_and(|value| value == "dumb")
 }
+
+/// Does the user say that text may have 24-bit colours?
+fn truecolour() -> bool {
+    std::env::var("COLORTERM").is_ok_and(|value| value == "truecolor" || value == "24bit")
+}
+
+/// The rows of a picture that are left where text takes its place.
+const LEAST_ROWS: usize = 10;
 
 /// Will [`show`] show anything?
 pub fn will_show(how: Terminal) -> bool {
@@ -68,16 +77,23 @@ pub fn will_show(how: Terminal) -> bool {
     }
 }
 
-/// Shows a picture on standard output, no larger than the terminal, and tells which way was taken.
+/// Shows a picture on standard output, so that `lines` more lines of text leave it in sight, and tells which way was taken.
 ///
 /// # Errors
 /// [`Error::BrokenPipe`] and other failures to write.
-pub fn show(picture: &Picture, how: Terminal) -> Result<Terminal> {
+pub fn show(picture: &Picture, how: Terminal, lines: usize) -> Result<Terminal> {
     if !will_show(how) {
         return Ok(Terminal::Off);
     }
-    let asked = if io::stdout().is_terminal() { query::ask() } else { Abilities::UNKNOWN };
-    let way = if how == Terminal::Auto { asked.best(no_color()) } else { how };
+    let mut asked = Abilities::UNKNOWN;
+    if io::stdout().is_terminal() {
+        // Only these two ways depend on the answers.
+        let matters = matches!(how, Terminal::Auto | Terminal::HalfBlocks);
+        asked = query::ask(matters && !plain());
+    }
+    asked.colour24 |= truecolour();
+    asked.cells.1 = asked.cells.1.saturating_sub(lines).max(LEAST_ROWS);
+    let way = if how == Terminal::Auto { asked.best() } else { how };
     let mut bytes = Vec::new();
     match way {
         Terminal::Kitty => encode::kitty(&mut bytes, picture, &asked),
@@ -97,14 +113,12 @@ mod tests {
     #[test]
     fn the_best_way() {
         let silent = Abilities::UNKNOWN;
-        assert_eq!(silent.best(false), Terminal::Ascii);
+        assert_eq!(silent.best(), Terminal::Ascii);
         let plain = Abilities { answers: true, ..silent };
-        assert_eq!(plain.best(false), Terminal::HalfBlocks);
-        assert_eq!(plain.best(true), Terminal::Ascii);
+        assert_eq!(plain.best(), Terminal::HalfBlocks);
         let sixel = Abilities { sixel: true, ..plain };
-        assert_eq!(sixel.best(false), Terminal::Sixel);
+        assert_eq!(sixel.best(), Terminal::Sixel);
         let both = Abilities { kitty: true, ..sixel };
-        assert_eq!(both.best(false), Terminal::Kitty);
-        assert_eq!(both.best(true), Terminal::Ascii);
+        assert_eq!(both.best(), Terminal::Kitty);
     }
 }

@@ -31,19 +31,20 @@ fn device_attributes(reply: &str) -> Option<&str> {
     })
 }
 
-/// Asks the controlling terminal. Where there is none, or no answer in time, the abilities are those of a plain stream.
+/// Asks the controlling terminal, or when not `aloud` only the system for its size. Where there is none, or no answer in time,
+/// the abilities are those of a plain stream.
 #[cfg(unix)]
-pub fn ask() -> Abilities {
-    let asked = unix::converse().map(|reply| parse(&reply)).unwrap_or(Abilities::UNKNOWN);
+pub fn ask(aloud: bool) -> Abilities {
+    let reply = if aloud { unix::converse() } else { None };
+    let asked = reply.map_or(Abilities::UNKNOWN, |reply| parse(&reply));
     let (cells, cell) = unix::size().unwrap_or((asked.cells, asked.cell));
-    let truecolour = std::env::var("COLORTERM").is_ok_and(|v| v == "truecolor" || v == "24bit");
-    Abilities { cells, cell, colour24: asked.colour24 || truecolour, ..asked }
+    Abilities { cells, cell, ..asked }
 }
 
 /// Where terminals can't be asked this way (Windows), text with 24-bit colours is supposed.
 #[cfg(not(unix))]
-pub fn ask() -> Abilities {
-    Abilities { answers: true, colour24: true, ..Abilities::UNKNOWN }
+pub fn ask(aloud: bool) -> Abilities {
+    Abilities { answers: aloud, colour24: aloud, ..Abilities::UNKNOWN }
 }
 
 #[cfg(unix)]

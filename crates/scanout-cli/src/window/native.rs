@@ -44,10 +44,18 @@ pub fn run(
 }
 
 fn no_window(error: &dyn std::fmt::Display) -> NoWindow {
-    // Some of these errors carry the source line of their crate in front.
     let text = error.to_string();
-    let text = text.lines().next().unwrap_or_default();
-    NoWindow(text.rsplit_once(".rs:").map_or(text, |(_, rest)| rest).trim().into())
+    NoWindow(plain(text.lines().next().unwrap_or_default()).into())
+}
+
+/// A library's error without the `os error at FILE.rs:LINE: ` in front and without the full stop.
+fn plain(text: &str) -> &str {
+    let text = text.rsplit_once(".rs:").map_or(text, |(_, rest)| rest);
+    let text = match text.split_once(':') {
+        Some((line, rest)) if line.bytes().all(|byte| byte.is_ascii_digit()) => rest,
+        _ => text,
+    };
+    text.trim().trim_end_matches('.')
 }
 
 struct Shown {
@@ -245,5 +253,18 @@ impl ApplicationHandler for App<'_> {
         } else {
             events.set_control_flow(ControlFlow::Wait);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn errors_without_source_lines() {
+        let plain = super::plain;
+        assert_eq!(
+            plain("os error at /a/winit-0.30/src/linux/mod.rs:765: no display."),
+            "no display"
+        );
+        assert_eq!(plain("no display: refused"), "no display: refused");
     }
 }

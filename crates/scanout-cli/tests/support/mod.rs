@@ -9,7 +9,9 @@ use std::process::{Command, Output, Stdio};
 /// The program, without the surroundings that change what it does.
 pub fn scanout() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_scanout"));
-    for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "NO_COLOR", "COLORTERM"] {
+    for variable in
+        ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "NO_COLOR", "COLORTERM", "TERM"]
+    {
         command.env_remove(variable);
     }
     command.stdin(Stdio::null());
