@@ -64,6 +64,19 @@ fn blocking_with_text_on_top() {
             show(frame, &mut link, area, &mut colour, &mut depth, text).unwrap();
             let picture = wires.model().picture().unwrap().upright(TURNED);
             assert!(picture.pixels == lettered, "text in bands of {lines} lines");
+
+            let bytes = wires.model().counts().bytes;
+            let narrow = Area { width: 319, ..area };
+            let error = show(frame, &mut link, narrow, &mut colour, &mut depth, &mut none);
+            assert!(matches!(error, Err(DrawError::Sink(SendError::Outside(_)))));
+            let wide = Area { width: 321, ..area };
+            let error = show(frame, &mut link, wide, &mut colour, &mut depth, &mut none);
+            let length = SendError::Length { needed: 321, given: 320 };
+            assert_eq!(error, Err(DrawError::Sink(length)));
+            let error = show(frame, &mut link, area, &mut colour[1..320], &mut depth, &mut none);
+            let memory = BandError::Memory { colour: 320, depth: 320 };
+            assert_eq!(error, Err(DrawError::Band(memory)));
+            assert_eq!(wires.model().counts().bytes, bytes, "nothing was sent");
         }
     });
 }

@@ -33,6 +33,34 @@
 //! | voltages, gamma, brightness, tearing line, idle colours | their parameters are counted, no more |
 //! | time | none: that 5 ms (120 ms before the next sleep) are left after `SLPOUT` can't be seen in bytes |
 //! | reading | answers are not given; bytes sent while reading are ignored |
+//!
+//! # Example
+//!
+//! A driver's bytes, taken from its pins, and the picture that they make:
+//!
+//! ```
+//! use mipidsi::{Builder, interface::SpiInterface, models::ST7789, options::{Orientation, Rotation}};
+//! use scanout::{frame::Band, output::Rgb565};
+//! use scanout_display::{band, model::{NoDelay, Wires}};
+//!
+//! let (wires, mut buffer) = (Wires::default(), [0; 512]);
+//! let landscape = Orientation::new().rotate(Rotation::Deg90);
+//! let mut display = Builder::new(ST7789, SpiInterface::new(wires.spi(), wires.dc(), &mut buffer))
+//!     .reset_pin(wires.reset())
+//!     .orientation(landscape)
+//!     .init(&mut NoDelay)
+//!     .unwrap();
+//! let band = Band::<Rgb565> { top: 16, rows: 2, width: 320, colour: &[0xf800; 640], depth: &[] };
+//! band::show(&mut display, &band)?;
+//!
+//! let picture = wires.model().picture()?.upright(landscape);
+//! assert_eq!((picture.width, picture.height, picture.at(319, 17)), (320, 240, 0xf800));
+//! assert_eq!(wires.model().untouched(), 320 * 238);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A firmware's bytes, taken from an emulator: [`DisplayModel::feed`] with the level of D/C, [`DisplayModel::reset`] with that of
+//! the reset pin.
 
 mod command;
 mod error;

@@ -183,8 +183,8 @@ fn partial_mode_and_scrolling() {
     let rows = [0, 35, 40, 175, 180, 235, 240, 315].map(|row| row_of(&model, row));
     assert_eq!(rows, [0, 35, 100, 235, 40, 95, 240, 315]);
     // Partial mode and normal mode both end scrolling.
-    send(&mut model, &[(0x12, &[])]);
-    assert_eq!([25, 40].map(|row| row_of(&model, row)), [25, 0]);
+    send(&mut model, &[(0x30, &[0, 50, 0, 59]), (0x12, &[])]);
+    assert_eq!([25, 50, 55, 60].map(|row| row_of(&model, row)), [0, 50, 55, 0]);
     send(&mut model, &[(0x13, &[])]);
     assert_eq!(row_of(&model, 40), 40);
     let sum = Fault::OutsideMemory { command: 0x33, ends: [0, 320], count: 320 };
@@ -234,7 +234,11 @@ fn each_fault_says_what_is_wrong() {
 
 #[test]
 fn a_picture_needs_a_complete_stream_and_a_display_that_is_on() {
-    let asked = |model: &DisplayModel| model.picture().map_err(|e| e.fault).map(|_| ());
+    let asked = |model: &DisplayModel| {
+        let answers = (model.picture().map(|_| ()), model.seen().map(|_| ()));
+        assert_eq!(answers.0, answers.1);
+        answers.0.map_err(|e| e.fault)
+    };
     let mut model = DisplayModel::default();
     assert_eq!(asked(&model), Err(Fault::Asleep));
     send(&mut model, &[(0x11, &[])]);
