@@ -125,7 +125,7 @@ impl Triangle {
 
     /// From the first corner to the centre of pixel (0, 0).
     #[inline(always)]
-    fn to_origin(&self) -> [i64; 2] {
+    fn offset(&self) -> [i64; 2] {
         self.origin.map(|v| 8 - v as i64)
     }
 
@@ -145,7 +145,7 @@ impl Triangle {
         let half = self.area >> 1;
         // Floor of n / area: the truncated quotient, less one where the remainder is negative.
         let floor = |n: i64| n / self.area + ((n % self.area) >> 63);
-        let ([d1, d2], [ox, oy]) = (self.sides(), self.to_origin());
+        let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
         let gx = floor((da1 * d2[1] - da2 * d1[1]) * 16 + half);
         let gy = floor((d1[0] * da2 - d2[0] * da1) * 16 + half);
         let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
@@ -158,7 +158,7 @@ impl Triangle {
         let wide = |v: i64| v as i128;
         let e = (32 - (self.reach >> 4).leading_zeros()).saturating_sub(11);
         let area = wide(self.area);
-        let ([d1, d2], [ox, oy]) = (self.sides().map(|d| d.map(wide)), self.to_origin().map(wide));
+        let ([d1, d2], [ox, oy]) = (self.sides().map(|d| d.map(wide)), self.offset().map(wide));
         let (da1, da2) = (wide(da1), wide(da2));
         let quotient = |n: i128| ((n << (4 + e)) + (area >> 1)).div_euclid(area);
         let gx = quotient(da1 * d2[1] - da2 * d1[1]);
