@@ -1,5 +1,6 @@
 //! The models that travel inside the program, so that the demonstration needs no file.
 
+use scanout::texture::Wrap;
 use scanout_assets::{Format, Image, LoadOptions, Model};
 
 use crate::error::{Error, Result};
@@ -12,6 +13,7 @@ pub fn earth() -> Result<Model> {
     model.images = vec![Image::decode(picture, "earth.jpg").map_err(failed)?.0];
     for part in &mut model.parts {
         part.material.texture = Some(0);
+        part.material.wrap = [Wrap::Clamp; 2];
         part.material.colour = [255; 3];
         (part.material.ambient, part.material.diffuse) = (0.2, 0.8);
     }
@@ -38,9 +40,17 @@ fn read(bytes: &[u8], name: &str) -> Result<Model> {
 
 #[cfg(test)]
 mod tests {
+    use super::LoadOptions;
+
     #[test]
     fn both_load() {
         assert!(!super::earth().unwrap().parts[0].mesh.uvs.is_empty());
+        // The poles would take texels of the opposite edge.
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/earth.obj");
+        let file =
+            scanout_assets::load(std::path::Path::new(file), &LoadOptions::default()).unwrap();
+        let inside = super::earth().unwrap();
+        assert_eq!(inside.parts[0].material.wrap, file.parts[0].material.wrap);
         assert_eq!(super::teapot().unwrap().stats.triangles, 992);
     }
 }
