@@ -222,8 +222,13 @@ pub struct PictureArgs {
     /// Size in pixels
     #[arg(long, value_name = "W,H", default_value = "640,480")]
     pub resolution: Resolution,
-    /// Colour (name, #rrggbb or R,G,B) or picture behind the model [default: #20242c, with rgb332 #494955]
-    #[arg(long, value_name = "COLOR|IMAGE", visible_alias = "background-color")]
+    /// What lies behind the model.
+    #[arg(
+        long,
+        value_name = "COLOR|IMAGE",
+        visible_alias = "background-color",
+        help = "Colour (name, #rrggbb or R,G,B) or picture behind the model [default: #20242c, with rgb332 #494955]"
+    )]
     pub background: Option<Backdrop>,
     /// Pixels as the display takes them
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
