@@ -110,19 +110,47 @@ fn visit_words<P: Copy>(
     }
 }
 
+/// What all formats share whose words are pixels.
+macro_rules! a_word_is_a_pixel {
+    ($word:ty) => {
+        type Word = $word;
+        type Pixel = $word;
+
+        fn words(width: usize) -> usize {
+            width
+        }
+        #[inline(always)]
+        fn store(row: &mut [$word], x: usize, pixel: $word) {
+            row[x] = pixel;
+        }
+        #[inline(always)]
+        fn pixels(words: &mut [$word]) -> Option<&mut [$word]> {
+            Some(words)
+        }
+        #[inline(always)]
+        fn visit(
+            row: &mut [$word],
+            first: usize,
+            depths: &mut [u16],
+            visitor: impl FnMut(usize, &mut u16) -> Option<$word>,
+        ) {
+            visit_words(row, first, depths, visitor);
+        }
+        fn fill(row: &mut [$word], width: usize, pixel: $word) {
+            row[..width].fill(pixel);
+        }
+    };
+}
+
 /// 8 bits a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rgb888 {}
 
 impl PixelFormat for Rgb888 {
-    type Word = [u8; 3];
-    type Pixel = [u8; 3];
+    a_word_is_a_pixel!([u8; 3]);
     const ID: u8 = 1;
     const BITS: usize = 24;
 
-    fn words(width: usize) -> usize {
-        width
-    }
     #[inline(always)]
     fn encode(rgb: [u8; 3]) -> [u8; 3] {
         rgb
@@ -132,28 +160,8 @@ impl PixelFormat for Rgb888 {
         rgb
     }
     #[inline(always)]
-    fn store(row: &mut [[u8; 3]], x: usize, pixel: [u8; 3]) {
-        row[x] = pixel;
-    }
-    #[inline(always)]
     fn load(row: &[[u8; 3]], x: usize) -> [u8; 3] {
         row[x]
-    }
-    #[inline(always)]
-    fn pixels(words: &mut [[u8; 3]]) -> Option<&mut [[u8; 3]]> {
-        Some(words)
-    }
-    #[inline(always)]
-    fn visit(
-        row: &mut [Self::Word],
-        first: usize,
-        depths: &mut [u16],
-        visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
-    ) {
-        visit_words(row, first, depths, visitor);
-    }
-    fn fill(row: &mut [[u8; 3]], width: usize, pixel: [u8; 3]) {
-        row[..width].fill(pixel);
     }
     fn bytes(row: &[[u8; 3]], width: usize, sink: &mut impl FnMut(&[u8])) {
         row[..width].iter().for_each(|p| sink(p));
@@ -165,14 +173,10 @@ impl PixelFormat for Rgb888 {
 pub enum Rgb565 {}
 
 impl PixelFormat for Rgb565 {
-    type Word = u16;
-    type Pixel = u16;
+    a_word_is_a_pixel!(u16);
     const ID: u8 = 2;
     const BITS: usize = 16;
 
-    fn words(width: usize) -> usize {
-        width
-    }
     #[inline(always)]
     fn encode(rgb: [u8; 3]) -> u16 {
         (rgb[0] as u16 & 0xf8) << 8 | (rgb[1] as u16 & 0xfc) << 3 | (rgb[2] as u16) >> 3
@@ -182,32 +186,12 @@ impl PixelFormat for Rgb565 {
         Self::encode(dithered(rgb, [5, 6, 5], x, y))
     }
     #[inline(always)]
-    fn store(row: &mut [u16], x: usize, pixel: u16) {
-        row[x] = pixel;
-    }
-    #[inline(always)]
     fn load(row: &[u16], x: usize) -> [u8; 3] {
         widen565(row[x])
     }
     #[inline(always)]
-    fn pixels(words: &mut [u16]) -> Option<&mut [u16]> {
-        Some(words)
-    }
-    #[inline(always)]
     fn rgb565(row: &mut [u16]) -> Option<&mut [u16]> {
         Some(row)
-    }
-    #[inline(always)]
-    fn visit(
-        row: &mut [Self::Word],
-        first: usize,
-        depths: &mut [u16],
-        visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
-    ) {
-        visit_words(row, first, depths, visitor);
-    }
-    fn fill(row: &mut [u16], width: usize, pixel: u16) {
-        row[..width].fill(pixel);
     }
     fn bytes(row: &[u16], width: usize, sink: &mut impl FnMut(&[u8])) {
         row[..width].iter().for_each(|p| sink(&p.to_be_bytes()));
@@ -219,14 +203,10 @@ impl PixelFormat for Rgb565 {
 pub enum Rgb332 {}
 
 impl PixelFormat for Rgb332 {
-    type Word = u8;
-    type Pixel = u8;
+    a_word_is_a_pixel!(u8);
     const ID: u8 = 3;
     const BITS: usize = 8;
 
-    fn words(width: usize) -> usize {
-        width
-    }
     #[inline(always)]
     fn encode(rgb: [u8; 3]) -> u8 {
         (rgb[0] & 0xe0) | (rgb[1] & 0xe0) >> 3 | rgb[2] >> 6
@@ -236,29 +216,9 @@ impl PixelFormat for Rgb332 {
         Self::encode(dithered(rgb, [3, 3, 2], x, y))
     }
     #[inline(always)]
-    fn store(row: &mut [u8], x: usize, pixel: u8) {
-        row[x] = pixel;
-    }
-    #[inline(always)]
     fn load(row: &[u8], x: usize) -> [u8; 3] {
         let (r, g, b) = (row[x] >> 5, row[x] >> 2 & 7, row[x] & 3);
         [r << 5 | r << 2 | r >> 1, g << 5 | g << 2 | g >> 1, b * 85]
-    }
-    #[inline(always)]
-    fn pixels(words: &mut [u8]) -> Option<&mut [u8]> {
-        Some(words)
-    }
-    #[inline(always)]
-    fn visit(
-        row: &mut [Self::Word],
-        first: usize,
-        depths: &mut [u16],
-        visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
-    ) {
-        visit_words(row, first, depths, visitor);
-    }
-    fn fill(row: &mut [u8], width: usize, pixel: u8) {
-        row[..width].fill(pixel);
     }
     fn bytes(row: &[u8], width: usize, sink: &mut impl FnMut(&[u8])) {
         sink(&row[..width]);
