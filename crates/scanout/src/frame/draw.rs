@@ -305,8 +305,23 @@ impl<'f> Painter<'f> {
         }
     }
 
+    /// A run of edges.
     fn edge<F: PixelFormat>(&self, target: &mut Target<F>) {
-        let edge = self.object.mesh.edges[self.primitive.index as usize];
+        let (first, more) = (self.primitive.index as usize, self.primitive.rgb[0] as usize);
+        let edges = &self.object.mesh.edges[first..=first + more];
+        let plain = self.object.mode != Mode::Hidden
+            && !self.object.smooth_lines
+            && self.object.mesh.colours.is_empty()
+            && self.primitive.tag & CLIPPED == 0;
+        if plain && target.draw_lines(edges, self.vertices, self.object.material.colour) {
+            return;
+        }
+        for &edge in edges {
+            self.one_edge(edge, target);
+        }
+    }
+
+    fn one_edge<F: PixelFormat>(&self, edge: [u16; 2], target: &mut Target<F>) {
         let mut ends = edge.map(|i| self.vertices[i as usize]);
         if self.primitive.tag & CLIPPED != 0 {
             let settings = self.frame.settings;

@@ -104,7 +104,7 @@ pub struct Primitive {
     bottom: i16,
     /// Index of the object.
     object: u16,
-    /// Colour of a flat triangle.
+    /// Colour of a flat triangle; of an edge, first how many more follow it.
     rgb: [u8; 3],
     /// [`Kind`] in the low bits, then [`CLIPPED`], [`BACK`].
     tag: u8,
@@ -182,7 +182,7 @@ pub struct Stats {
     pub outside: u32,
     /// Primitives that the clip stage must cut.
     pub clipped: u32,
-    /// Primitives kept.
+    /// Primitives kept; up to 32 neighbouring edges inside the frame are one.
     pub primitives: u32,
 }
 

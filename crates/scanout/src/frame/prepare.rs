@@ -392,36 +392,76 @@ impl ObjectPass<'_> {
         lighting.lit(colour, n, p)
     }
 
+    /// Edges with both ends in the frame are listed in runs of neighbours: `index` is the first, `rgb[0]` how many more
+    /// there are.
     fn edges(&self, vertices: &[Vertex], list: &mut List) -> Result<(), PrepareError> {
-        let mesh = self.object.mesh;
-        for (i, &edge) in mesh.edges.iter().enumerate() {
-            let [Some(a), Some(b)] = edge.map(|c| vertices.get(c as usize)) else {
-                return Err(PrepareError::Index { object: self.index, element: i });
-            };
-            if a.flags & b.flags & (NEAR | FAR) != 0 {
-                list.stats.outside += 1;
-                continue;
+        const LONGEST: usize = 32;
+        let (width, height) = (self.settings.width as u32 * 16, self.settings.height as u32 * 16);
+        let inside =
+            |v: &Vertex| v.flags & CLIP == 0 && (v.x as u32) < width && (v.y as u32) < height;
+        for (k, edges) in self.object.mesh.edges.chunks(LONGEST).enumerate() {
+            let mut first = k * LONGEST;
+            // The run's length, its highest and its lowest end.
+            let (mut length, mut high, mut low) = (0, i32::MAX, 0);
+            for (i, edge) in (k * LONGEST..).zip(edges) {
+                let [Some(a), Some(b)] = edge.map(|c| vertices.get(c as usize)) else {
+                    return Err(PrepareError::Index { object: self.index, element: i });
+                };
+                if inside(a) && inside(b) {
+                    (length, high, low) =
+                        (length + 1, high.min(a.y).min(b.y), low.max(a.y).max(b.y));
+                    continue;
+                }
+                self.edge_run(first, length, high, low, list);
+                (first, length, high, low) = (i + 1, 0, i32::MAX, 0);
+                self.edge(i, [a, b], list);
             }
-            let clipped = (a.flags | b.flags) & CLIP != 0;
+            self.edge_run(first, length, high, low, list);
+        }
+        Ok(())
+    }
+
+    /// Lists a run of edges between two heights, none when it is empty.
+    fn edge_run(&self, first: usize, length: usize, high: i32, low: i32, list: &mut List) {
+        let [a, b] = [high, low].map(|y| Vertex { y, ..Vertex::default() });
+        if length > 0
+            && let Some((top, bottom)) = self.line_rows(&a, &b, 2)
+        {
+            list.push(Primitive {
+                index: first as u32,
+                top,
+                bottom,
+                object: self.index as u16,
+                rgb: [length as u8 - 1, 0, 0],
+                tag: Kind::Edge as u8,
+            });
+        }
+    }
+
+    /// Lists an edge that leaves the frame or must be clipped, if it can be seen.
+    #[inline(never)]
+    fn edge(&self, index: usize, [a, b]: [&Vertex; 2], list: &mut List) {
+        let edge = self.object.mesh.edges[index];
+        let mut rows = None;
+        let clipped = (a.flags | b.flags) & CLIP != 0;
+        if a.flags & b.flags & (NEAR | FAR) == 0 {
             let ends = if clipped {
-                let corner = |c: u16| self.corner(c);
-                clip::line(corner(edge[0]), corner(edge[1]))
+                clip::line(self.corner(edge[0]), self.corner(edge[1]))
                     .map(|ends| ends.map(|c| self.viewport.project(&c.clip)))
             } else {
                 Some([*a, *b])
             };
             // An anti-aliased line reaches one pixel to each side.
-            let rows = ends.and_then(|[a, b]| self.line_rows(&a, &b, 2));
-            let Some((top, bottom)) = rows else {
-                list.stats.outside += 1;
-                continue;
-            };
-            list.stats.clipped += clipped as u32;
-            let tag = Kind::Edge as u8 | if clipped { CLIPPED } else { 0 };
-            let object = self.index as u16;
-            list.push(Primitive { index: i as u32, top, bottom, object, rgb: [0; 3], tag });
+            rows = ends.and_then(|[a, b]| self.line_rows(&a, &b, 2));
         }
-        Ok(())
+        let Some((top, bottom)) = rows else {
+            list.stats.outside += 1;
+            return;
+        };
+        list.stats.clipped += clipped as u32;
+        let tag = Kind::Edge as u8 | if clipped { CLIPPED } else { 0 };
+        let object = self.index as u16;
+        list.push(Primitive { index: index as u32, top, bottom, object, rgb: [0; 3], tag });
     }
 
     fn points(&self, vertices: &[Vertex], list: &mut List) {

@@ -8,11 +8,12 @@ use crate::depth;
 use crate::interpolate::Plane;
 use crate::lanes::{self, LANES, U16x8, U32x8};
 use crate::output::{PixelFormat, Rgb565};
-use crate::raster::line::{ClipRect, LineEnd, fill_cells};
+use crate::raster::line::{ClipRect, Field, LineEnd, fill_cells};
 use crate::raster::triangle::{Run, spans, tiles};
 use crate::scene::Background;
 use crate::setup::{Edge, Triangle};
 use crate::shade::blend;
+use crate::transform::Vertex;
 
 /// Eight neighbours in memory.
 #[inline(always)]
@@ -41,6 +42,26 @@ fn write_eight<S: Shader>(
     let g = g.and(U16x8::splat(0xfc)).shl::<3>();
     let rgb = r.or(g).or(b.shr::<3>());
     pass.select(rgb, U16x8::load(colours)).store(colours);
+}
+
+/// Draws edges the quick way; `other` draws those that are long or not inside.
+#[inline(never)]
+fn lines<T: Copy>(
+    cells: &mut [T],
+    field: Field,
+    top: i32,
+    edges: &[[u16; 2]],
+    vertices: &[Vertex],
+    value: T,
+    other: impl Fn([&Vertex; 2], &mut [T]),
+) {
+    for edge in edges {
+        let [Some(a), Some(b)] = edge.map(|i| vertices.get(i as usize)) else { continue };
+        let place = |v: &Vertex| [(v.x >> 4) as u32, ((v.y >> 4) - top) as u32];
+        if !field.fill(cells, place(a), place(b), value) {
+            other([a, b], cells);
+        }
+    }
 }
 
 /// Colour and depth memory of the rows being drawn.
@@ -255,6 +276,27 @@ impl<F: PixelFormat> Target<'_, F> {
                 }
             }
         });
+    }
+
+    /// Edges of one colour without depth, the quick way; false where the format or dither forbids it.
+    pub(super) fn draw_lines(
+        &mut self,
+        edges: &[[u16; 2]],
+        vertices: &[Vertex],
+        rgb: [u8; 3],
+    ) -> bool {
+        let (clip, width, rows) = (self.clip_rect(), self.width, self.rows.clone());
+        let (false, Some(cells)) = (self.dither, F::pixels(self.colour)) else { return false };
+        let value = F::encode(rgb);
+        let Some(field) = Field::new(width, clip) else { return false };
+        lines(cells, field, rows.start, edges, vertices, value, |[a, b], cells| {
+            let end = |v: &Vertex| LineEnd { x: v.x >> 4, y: v.y >> 4, ..LineEnd::default() };
+            let (a, b) = (end(a), end(b));
+            if a.y.min(b.y) < rows.end && a.y.max(b.y) >= rows.start {
+                fill_cells(cells, width, clip, &a, &b, value);
+            }
+        });
+        true
     }
 
     /// A line of one colour without depth, the quick way; false where the format or dither forbids it.

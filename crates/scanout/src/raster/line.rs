@@ -49,6 +49,7 @@ mod fill;
 mod place;
 pub(super) mod ramp;
 
+pub(crate) use fill::Field;
 pub use fill::fill_cells;
 
 use place::{Cell, Pixel, Place};
