@@ -211,6 +211,26 @@ fn face_normals_make_gouraud_flat() {
     assert!(flat == gouraud);
 }
 
+/// An object whose bounding sphere lies outside the view costs no vertices and changes no pixel.
+#[test]
+fn objects_out_of_view_are_culled_whole() {
+    let mesh_data = sphere(10, 8);
+    let bounds = Some(scanout::mesh::Sphere { centre: [0; 3], radius: 30_000 });
+    let mesh = Mesh { bounds, ..mesh_data.mesh() };
+    let m = material();
+    let seen = object(&mesh, &m, Mode::Gouraud);
+    let away = Object { transform: Mat4::translation(Vec3::from_f64([50.0, 0.0, 0.0])), ..seen };
+    let settings = Settings::new(160, 120);
+    let alone: Picture<Rgb888> = draw(&scene(camera(160, 120), &[seen]), settings, 120, false);
+    for objects in [[seen, away], [away, seen]] {
+        let s = scene(camera(160, 120), &objects);
+        assert!(alone == draw(&s, settings, 50, false));
+        let mut memory = Memory::new(Needed::at_most(&s));
+        let stats = Frame::prepare(&s, settings, memory.store()).unwrap().stats();
+        assert_eq!((stats.objects_culled, stats.vertices), (1, mesh.positions.len() as u32));
+    }
+}
+
 /// Hidden-line removal keeps only lines that a shaded picture would show, and some of all edges.
 #[test]
 fn hidden_lines_are_hidden() {

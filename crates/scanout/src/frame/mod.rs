@@ -14,7 +14,7 @@
 //! |---|---|
 //! | a vertex | 20 ([`Vertex`]) |
 //! | a primitive | 16 ([`Primitive`]) |
-//! | an object | 80 ([`ObjectState`]) |
+//! | an object | 72 ([`ObjectState`]) |
 //! | a pixel of a band | the format's + 2 (depth) |
 //!
 //! Order: primitives are drawn in the order of the scene's objects and, within one, of its triangles, edges, points. What it will
@@ -67,10 +67,18 @@ impl Settings {
     }
 }
 
+// The sizes that this module promises.
+const _: () = assert!(size_of::<Vertex>() == 20);
+const _: () = assert!(size_of::<Primitive>() == 16);
+const _: () = assert!(size_of::<ObjectState>() == 72);
+
+/// In place of an object's first vertex: its bounding sphere lies outside the view.
+const UNSEEN: u32 = u32::MAX;
+
 /// What the frame keeps for an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ObjectState {
-    /// Index of its first vertex in the store.
+    /// Index of its first vertex in the store, or [`UNSEEN`].
     first_vertex: u32,
     /// Object to clip.
     clip: ClipMatrix,

@@ -3,7 +3,7 @@
 use super::{
     BACK, CLIPPED, Frame, Kind, MAX_SIDE, Needed, ObjectState, PrepareError, Primitive, Settings,
 };
-use super::{Stats, Store};
+use super::{Stats, Store, UNSEEN};
 use crate::clip::{self, Corner};
 use crate::cull::{Facing, facing, facing_in_clip_space, sphere_outside};
 use crate::light::{Lighting, MAX_LIGHTS};
@@ -73,7 +73,8 @@ impl<'a> Frame<'a> {
         for (state, object) in objects.iter_mut().zip(scene.objects) {
             let clip = ClipMatrix::new(&world_to_clip.mul(&object.transform));
             let seen = !object.mesh.bounds.is_some_and(|sphere| sphere_outside(&clip, &sphere));
-            *state = ObjectState { first_vertex: vertices_needed as u32, clip };
+            let first_vertex = if seen { vertices_needed as u32 } else { UNSEEN };
+            *state = ObjectState { first_vertex, clip };
             if seen {
                 vertices_needed += object.mesh.positions.len();
             }
@@ -84,7 +85,7 @@ impl<'a> Frame<'a> {
         }
         for (index, object) in scene.objects.iter().enumerate() {
             let state = objects[index];
-            if object.mesh.bounds.is_some_and(|sphere| sphere_outside(&state.clip, &sphere)) {
+            if state.first_vertex == UNSEEN {
                 list.stats.objects_culled += 1;
                 continue;
             }

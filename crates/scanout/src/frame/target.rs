@@ -96,29 +96,25 @@ impl<F: PixelFormat> Target<'_, F> {
 
     pub(super) fn clear(&mut self, background: &Background) {
         self.depth.fill(depth::FAR);
+        let (width, dither) = (self.width, self.dither);
         for y in self.rows.clone() {
-            let (width, dither) = (self.width, self.dither);
             let (row, _) = self.row(y);
-            match background {
-                Background::Colour(rgb) if !dither => F::fill(row, width, F::encode(*rgb)),
-                Background::Colour(rgb) => {
-                    F::fill(row, width, F::encode([0; 3]));
-                    for x in 0..width {
-                        F::store(row, x, F::encode_dithered(*rgb, x as i32, y));
-                    }
-                }
-                Background::Image(pixels) => {
-                    F::fill(row, width, F::encode([0; 3]));
-                    let picture = &pixels[y as usize * width..][..width];
-                    for (x, &rgb) in picture.iter().enumerate() {
-                        let pixel = if dither {
-                            F::encode_dithered(rgb, x as i32, y)
-                        } else {
-                            F::encode(rgb)
-                        };
-                        F::store(row, x, pixel);
-                    }
-                }
+            if let (Background::Colour(rgb), false) = (background, dither) {
+                F::fill(row, width, F::encode(*rgb));
+                continue;
+            }
+            // The bits of the last word that are no pixels.
+            if let Some(last) = row.last_mut() {
+                *last = F::Word::default();
+            }
+            for x in 0..width {
+                let rgb = match background {
+                    Background::Colour(rgb) => *rgb,
+                    Background::Image(pixels) => pixels[y as usize * width + x],
+                };
+                let pixel =
+                    if dither { F::encode_dithered(rgb, x as i32, y) } else { F::encode(rgb) };
+                F::store(row, x, pixel);
             }
         }
     }
@@ -136,19 +132,20 @@ impl<F: PixelFormat> Target<'_, F> {
     /// Depth, shade, output: a triangle's fragments.
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
         if self.dither {
-            self.runs(t, |target, runs| target.fill_dithered(z, shader, runs));
+            self.runs(t, |target, runs| target.fill_runs::<S, true>(z, shader, runs));
         } else if lanes::AVAILABLE && S::SIDE_BY_SIDE && F::rgb565(&mut []).is_some() {
             if self.traversal == Traversal::Spans && self.width >= LANES && t.is_tiny() {
                 return self.fill_strips(t, z, shader);
             }
             self.runs(t, |target, runs| target.fill_side_by_side(z, shader, runs));
         } else {
-            self.runs(t, |target, runs| target.fill_runs(z, shader, runs));
+            self.runs(t, |target, runs| target.fill_runs::<S, false>(z, shader, runs));
         }
     }
 
+    /// The fragments of some runs, one after another.
     #[inline(never)]
-    fn fill_runs<S: Shader>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
+    fn fill_runs<S: Shader, const DITHER: bool>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
         let constant =
             F::encode(if S::CONSTANT { shader.colour(&shader.at(0, 0)) } else { [0; 3] });
         for run in runs.iter().filter(|run| run.x0 < run.x1) {
@@ -156,11 +153,16 @@ impl<F: PixelFormat> Target<'_, F> {
             let depths = &mut depths[run.x0 as usize..run.x1 as usize];
             let mut value = z.at(run.x0, run.y);
             let mut pixel = shader.at(run.x0, run.y);
-            F::visit(row, run.x0 as usize, depths, |_, stored| {
-                let pass = depth::test(stored, depth::round(value));
-                let colour =
-                    || if S::CONSTANT { constant } else { F::encode(shader.colour(&pixel)) };
-                let colour = pass.then(colour);
+            F::visit(row, run.x0 as usize, depths, |i, stored| {
+                let colour = depth::test(stored, depth::round(value)).then(|| {
+                    if DITHER {
+                        F::encode_dithered(shader.colour(&pixel), run.x0 + i as i32, run.y)
+                    } else if S::CONSTANT {
+                        constant
+                    } else {
+                        F::encode(shader.colour(&pixel))
+                    }
+                });
                 value = value.wrapping_add(z.gx);
                 pixel = shader.step(pixel, 1);
                 colour
@@ -238,24 +240,6 @@ impl<F: PixelFormat> Target<'_, F> {
                 value = value.wrapping_add(z.gx);
                 pixel = shader.step(pixel, 1);
             }
-        }
-    }
-
-    #[inline(never)]
-    fn fill_dithered<S: Shader>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
-        for run in runs.iter().filter(|run| run.x0 < run.x1) {
-            let (row, depths) = self.row(run.y);
-            let depths = &mut depths[run.x0 as usize..run.x1 as usize];
-            let mut value = z.at(run.x0, run.y);
-            let mut pixel = shader.at(run.x0, run.y);
-            F::visit(row, run.x0 as usize, depths, |i, stored| {
-                let pass = depth::test(stored, depth::round(value));
-                let x = run.x0 + i as i32;
-                let colour = pass.then(|| F::encode_dithered(shader.colour(&pixel), x, run.y));
-                value = value.wrapping_add(z.gx);
-                pixel = shader.step(pixel, 1);
-                colour
-            });
         }
     }
 
