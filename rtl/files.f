@@ -1,0 +1,14 @@
+debounce.sv
+delay_line.sv
+dvi.sv
+framebuffer.sv
+line_memories.sv
+line_memory.sv
+plane_memory.sv
+plane_memory_block.sv
+plane_memory_spram.sv
+synchronise.sv
+tmds_encode.sv
+tmds_serialise.sv
+video_pins.sv
+video_timing.sv
