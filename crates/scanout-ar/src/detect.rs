@@ -1,0 +1,302 @@
+//! The detector: a grey picture to markers.
+//!
+//! ```text
+//!  picture ---------> 1/2 ---------> 1/4               integers: threshold, contours
+//!     |                |              |
+//!  threshold        threshold     threshold            one window's size on every level: noise and blur that hide a marker's
+//!     |                |              |                cells in the picture are averaged away in the halves
+//!  contours -> quadrilaterals -> edges -> decode       floating point, only for the few quadrilaterals
+//!                                           |
+//!                                    pattern in the picture -> corners
+//! ```
+//!
+//! Coarse levels go first; what is found there is not looked for again below.
+
+use crate::contour::{Point, follow};
+use crate::decode::{self, Limits, Reading};
+use crate::dictionary::Dictionary;
+use crate::edges;
+use crate::homography::Homography;
+use crate::image::{GreyImage, halve};
+use crate::pattern;
+use crate::quad::{Corners, from_outline, is_plausible, twice_area};
+use crate::threshold::{adaptive, columns, words};
+use libm::sqrt;
+
+/// A marker that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detection {
+    /// Which of the dictionaries looked for, counted from 0.
+    pub dictionary: u8,
+    /// Its number.
+    pub id: u16,
+    /// Bits that differed from its pattern.
+    pub wrong: u8,
+    /// The outer corners of its black border: top left, top right, bottom right, bottom left of the upright marker. Pixels, the
+    /// first pixel's centre at (0.5, 0.5).
+    pub corners: Corners,
+    /// How well picture and pattern agree, 0 - 1.
+    pub agreement: f64,
+    /// Standard deviation of the blur across edges, pixels.
+    pub blur: f64,
+}
+
+impl Default for Detection {
+    fn default() -> Self {
+        let corners = [[0.0; 2]; 4];
+        Self { dictionary: 0, id: 0, wrong: 0, corners, agreement: 0.0, blur: 0.0 }
+    }
+}
+
+/// What the detector looks for and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Levels of the pyramid: 1 the picture only, 3 down to a quarter. At most 3.
+    pub levels: usize,
+    /// Half the threshold's window, pixels of each level.
+    pub radius: usize,
+    /// How much darker than its surroundings black must be, grey levels.
+    pub margin: u8,
+    /// Shortest side of a marker, pixels of its level.
+    pub least_side: usize,
+    /// Wrong bits that are put right, at most; less where the dictionary allows fewer.
+    pub wrong: u8,
+    /// Least agreement of the cells with the pattern, 0 - 1.
+    pub agreement: f64,
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Self { levels: 3, radius: 7, margin: 5, least_side: 8, wrong: 3, agreement: 0.8 }
+    }
+}
+
+/// Working memory for pictures up to a size, in the caller's hands.
+#[derive(Debug)]
+pub struct Memory<'m> {
+    /// [`Needed::sums`] entries.
+    pub sums: &'m mut [u16],
+    /// [`Needed::bits`] words.
+    pub bits: &'m mut [u32],
+    /// [`Needed::bits`] words.
+    pub passed: &'m mut [u32],
+    /// [`Needed::halves`] bytes.
+    pub halves: &'m mut [u8],
+    /// [`Needed::points`] corners; longer outlines are left out.
+    pub points: &'m mut [Point],
+}
+
+/// How much memory a picture needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needed {
+    /// Entries of [`Memory::sums`].
+    pub sums: usize,
+    /// Words of [`Memory::bits`] and of [`Memory::passed`].
+    pub bits: usize,
+    /// Bytes of [`Memory::halves`].
+    pub halves: usize,
+    /// Entries of [`Memory::points`], enough for a marker that fills the picture.
+    pub points: usize,
+}
+
+impl Needed {
+    /// For pictures of `width` x `height` pixels.
+    pub const fn for_size(width: usize, height: usize) -> Self {
+        Self {
+            sums: columns(width),
+            bits: words(width) * height,
+            halves: (width / 2) * (height / 2) + (width / 4) * (height / 4),
+            points: 3 * (width + height),
+        }
+    }
+
+    /// In bytes, all together.
+    pub const fn bytes(&self) -> usize {
+        self.sums * 2 + self.bits * 8 + self.halves + self.points * size_of::<Point>()
+    }
+}
+
+/// Why a picture could not be searched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DetectError {
+    /// The memory is too small for the picture.
+    Memory(Needed),
+    /// A side of the picture is longer than 16,384 pixels.
+    Size,
+}
+
+impl core::fmt::Display for DetectError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Memory(needed) => write!(
+                f,
+                "the detector's memory is too small for the picture: it needs {} bytes, see Needed::for_size",
+                needed.bytes()
+            ),
+            Self::Size => f.write_str("the picture is larger than 16384 pixels; make it smaller"),
+        }
+    }
+}
+
+impl core::error::Error for DetectError {}
+
+/// Finds markers of `dictionaries` in a picture and writes them to `found`; returns how many. Those that don't fit are left out.
+///
+/// Markers are dark on light paper; the paper must be seen all around, half a cell wide. A marker with a covered corner is not
+/// found.
+///
+/// # Errors
+/// [`DetectError`].
+pub fn detect(
+    image: &GreyImage,
+    dictionaries: &[Dictionary],
+    parameters: &Parameters,
+    memory: &mut Memory,
+    found: &mut [Detection],
+) -> Result<usize, DetectError> {
+    let (width, height) = (image.width(), image.height());
+    if width.max(height) > 16384 {
+        return Err(DetectError::Size);
+    }
+    let needed = Needed::for_size(width, height);
+    let enough = memory.sums.len() >= needed.sums
+        && memory.bits.len() >= needed.bits
+        && memory.passed.len() >= needed.bits
+        && memory.halves.len() >= needed.halves;
+    if !enough {
+        return Err(DetectError::Memory(needed));
+    }
+    let (half, quarter) = memory.halves[..needed.halves].split_at_mut((width / 2) * (height / 2));
+    halve(image, half);
+    let empty = GreyImage::new(0, 0, 0, &[]).unwrap_or(*image);
+    let half = GreyImage::new(width / 2, height / 2, width / 2, half).unwrap_or(empty);
+    halve(&half, quarter);
+    let quarter = GreyImage::new(width / 4, height / 4, width / 4, quarter).unwrap_or(empty);
+    let levels = [*image, half, quarter];
+    let mut search = Search { levels, dictionaries, parameters, found, count: 0 };
+    for level in (0..parameters.levels.clamp(1, 3)).rev() {
+        let image = levels[level];
+        let size = (image.width(), image.height());
+        let bits = &mut memory.bits[..words(size.0) * size.1];
+        adaptive(&image, parameters.radius, parameters.margin, memory.sums, bits);
+        follow(bits, size, memory.passed, memory.points, |outline, points| {
+            if is_plausible(&outline, parameters.least_side)
+                && let Some(corners) = from_outline(&outline, points)
+            {
+                search.quadrilateral(level, &corners);
+            }
+        });
+    }
+    Ok(search.count)
+}
+
+struct Search<'a> {
+    levels: [GreyImage<'a>; 3],
+    dictionaries: &'a [Dictionary],
+    parameters: &'a Parameters,
+    found: &'a mut [Detection],
+    count: usize,
+}
+
+impl Search<'_> {
+    fn quadrilateral(&mut self, level: usize, corners: &Corners) {
+        let scale = f64::from(1u32 << level);
+        if self.is_known(&corners.map(|corner| corner.map(|x| x * scale))) {
+            return;
+        }
+        let Some(fine) = edges::refine(&self.levels[level], corners) else { return };
+        let full = fine.map(|corner| corner.map(|x| x * scale));
+        let Some((mut detection, reading)) = self.decode(level, &fine).or_else(|| {
+            // Cells too small for this level may be read in the picture itself.
+            if level > 0 { self.decode(0, &full) } else { None }
+        }) else {
+            return;
+        };
+        // Top left first: the marker's own first corner stands where the turns brought it.
+        let turns = usize::from(detection.1);
+        detection.0.corners = core::array::from_fn(|i| full[(i + turns) % 4]);
+        let dictionary = &self.dictionaries[usize::from(detection.0.dictionary)];
+        let Some(code) = dictionary.code(detection.0.id.into()) else { return };
+        let fitted = pattern::refine(
+            &self.levels[0],
+            dictionary,
+            code,
+            &detection.0.corners,
+            (reading.black, reading.white),
+        );
+        if let Some(fitted) = fitted {
+            detection.0.corners = fitted.corners;
+            detection.0.agreement = detection.0.agreement.min(fitted.agreement);
+            detection.0.blur = fitted.blur;
+        }
+        self.add(detection.0);
+    }
+
+    /// The best reading in any dictionary, and its turns.
+    fn decode(&self, level: usize, corners: &Corners) -> Option<((Detection, u8), Reading)> {
+        let map = Homography::from_unit_square(corners)?;
+        let mut best: Option<((Detection, u8), Reading)> = None;
+        let mut read: Option<(u8, Reading)> = None;
+        for (index, dictionary) in self.dictionaries.iter().enumerate() {
+            let side = dictionary.side;
+            // Dictionaries of one size share a reading.
+            let reading = match read {
+                Some((known, reading)) if known == side => reading,
+                _ => {
+                    let limits = Limits::default();
+                    let Some(new) = decode::read(&self.levels[level], &map, side.into(), &limits)
+                    else {
+                        continue;
+                    };
+                    read = Some((side, new));
+                    new
+                }
+            };
+            let tolerated = self.parameters.wrong.min(dictionary.correctable);
+            let Some((found, agreement)) = reading.find(dictionary, tolerated) else { continue };
+            let better = best.as_ref().is_none_or(|best| agreement > best.0.0.agreement);
+            if agreement >= self.parameters.agreement && better {
+                let detection = Detection {
+                    dictionary: index as u8,
+                    id: found.id,
+                    wrong: found.wrong,
+                    agreement,
+                    ..Detection::default()
+                };
+                best = Some(((detection, found.turns), reading));
+            }
+        }
+        best
+    }
+
+    /// Is this the outline of a marker that was found already?
+    fn is_known(&self, corners: &Corners) -> bool {
+        self.found[..self.count].iter().any(|known| same_place(&known.corners, corners))
+    }
+
+    fn add(&mut self, detection: Detection) {
+        let twin = self.found[..self.count].iter_mut().find(|known| {
+            known.dictionary == detection.dictionary
+                && known.id == detection.id
+                && same_place(&known.corners, &detection.corners)
+        });
+        if let Some(twin) = twin {
+            if detection.agreement > twin.agreement {
+                *twin = detection;
+            }
+        } else if let Some(to) = self.found.get_mut(self.count) {
+            *to = detection;
+            self.count += 1;
+        }
+    }
+}
+
+/// Do two quadrilaterals cover nearly the same place: middles closer than a quarter of a side, areas within a factor of 2?
+fn same_place(a: &Corners, b: &Corners) -> bool {
+    let middle =
+        |corners: &Corners, axis: usize| corners.iter().map(|c| c[axis]).sum::<f64>() / 4.0;
+    let (dx, dy) = (middle(a, 0) - middle(b, 0), middle(a, 1) - middle(b, 1));
+    let (p, q) = (twice_area(a), twice_area(b));
+    sqrt(dx * dx + dy * dy) < 0.25 * sqrt(p / 2.0) && p < 2.0 * q && q < 2.0 * p
+}

@@ -1,0 +1,74 @@
+//! Corners from the grey values along the sides, before it is known which marker it is.
+//!
+//! Across each side profiles are sampled; on each the edge lies at the mean of the places where the grey rises outwards, weighted
+//! by the square of the rise. A line is fitted to them, and the lines' crossings are the corners.
+//!
+//! Source: the edge refinement of AprilTag 3 (Krogius, Haggenmiller and Olson, 2019).
+
+use crate::image::GreyImage;
+use crate::line::{Line, LineSums};
+use crate::quad::{Corners, is_convex};
+use libm::sqrt;
+
+/// Steps of a profile on either side.
+const REACH: i32 = 3;
+
+/// Moves the corners of a dark quadrilateral on light ground to where its edges are; edges may be up to 3 pixels off. Sides without
+/// any edge stay. `None` when what comes out is no quadrilateral.
+pub fn refine(image: &GreyImage, corners: &Corners) -> Option<Corners> {
+    let origin = corners[0];
+    let mut lines = [Line { normal: [0.0; 2], offset: 0.0 }; 4];
+    for (side, line) in lines.iter_mut().enumerate() {
+        let (a, b) = (corners[side], corners[(side + 1) % 4]);
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let length = sqrt(dx * dx + dy * dy);
+        if length < 4.0 {
+            return None;
+        }
+        // Clockwise on the screen: outwards is on the left.
+        let outward = [dy / length, -dx / length];
+        let count = ((length / 3.0) as usize).clamp(6, 24);
+        let mut sums = LineSums::default();
+        for i in 0..count {
+            // Corners are rounded off by blur.
+            let along = 0.1 + 0.8 * (i as f64 + 0.5) / count as f64;
+            let (x, y) = (a[0] + dx * along, a[1] + dy * along);
+            let at = |t: f64| image.sample(x + outward[0] * t, y + outward[1] * t);
+            let mut before = at(f64::from(-REACH));
+            let (mut weight, mut moment) = (0.0, 0.0);
+            for step in -REACH..REACH {
+                let next = at(f64::from(step + 1));
+                let rise = next - before;
+                before = next;
+                if rise > 0.0 {
+                    weight += rise * rise;
+                    moment += rise * rise * (f64::from(step) + 0.5);
+                }
+            }
+            if weight > 4.0 {
+                let t = moment / weight;
+                let point = [x + outward[0] * t - origin[0], y + outward[1] * t - origin[1]];
+                sums.add(point, sqrt(weight));
+            }
+        }
+        *line = match sums.fit() {
+            Some((line, _)) => line,
+            None => Line {
+                normal: outward,
+                offset: outward[0] * (a[0] - origin[0]) + outward[1] * (a[1] - origin[1]),
+            },
+        };
+    }
+    let mut fine = *corners;
+    for (i, to) in fine.iter_mut().enumerate() {
+        let [x, y] = lines[(i + 3) % 4].crossing(&lines[i])?;
+        let moved = [x + origin[0], y + origin[1]];
+        let (dx, dy) = (moved[0] - to[0], moved[1] - to[1]);
+        // A corner that ran away came from profiles of something else.
+        if dx * dx + dy * dy > f64::from(4 * REACH * REACH) {
+            return None;
+        }
+        *to = moved;
+    }
+    is_convex(&fine).then_some(fine)
+}

@@ -1,0 +1,59 @@
+"""The detectors that are compared: each gives (number, corners) and the processor's milliseconds for a picture.
+
+Corners: top left, top right, bottom right, bottom left, pixel centres at .5.
+"""
+import subprocess
+import time
+
+import cv2
+import numpy
+
+
+class OpenCv:
+    def __init__(self, dictionary):
+        parameters = cv2.aruco.DetectorParameters()
+        parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
+        self.detector = cv2.aruco.ArucoDetector(dictionary, parameters)
+        self.name = "OpenCV, sub-pixel corners"
+
+    def __call__(self, picture):
+        start = time.process_time()
+        corners, numbers, _ = self.detector.detectMarkers(picture)
+        spent = time.process_time() - start
+        numbers = [] if numbers is None else numbers.ravel()
+        # OpenCV's pixel centres lie at .0.
+        return [(int(n), c.reshape(4, 2).astype(float) + 0.5) for n, c in zip(numbers, corners)], spent * 1e3
+
+
+class AprilTag:
+    def __init__(self, decimate):
+        import pupil_apriltags
+
+        self.detector = pupil_apriltags.Detector(families="tag36h11", nthreads=1, quad_decimate=decimate)
+        self.name = f"AprilTag 3, decimation {decimate:g}"
+
+    def __call__(self, picture):
+        start = time.process_time()
+        found = self.detector.detect(picture)
+        spent = time.process_time() - start
+        # Its corners go counter-clockwise; its tags stand on their heads, as OpenCV draws them.
+        return [(tag.tag_id, tag.corners[[1, 0, 3, 2]]) for tag in found], spent * 1e3
+
+
+class Scanout:
+    """The example `detect` of scanout-ar, fed with pictures through a pipe."""
+
+    def __init__(self, program, dictionaries):
+        self.process = subprocess.Popen([program, *dictionaries], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.name = "scanout"
+
+    def __call__(self, picture):
+        height, width = picture.shape
+        self.process.stdin.write(b"P5\n%d %d\n255\n" % (width, height) + picture.tobytes())
+        self.process.stdin.flush()
+        words = self.process.stdout.readline().split()
+        found = []
+        for i in range(1, len(words), 9):
+            number = int(words[i].split(b":")[1])
+            found.append((number, numpy.array(words[i + 1 : i + 9], float).reshape(4, 2)))
+        return found, float(words[0]) / 1e3

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Compares scanout's marker detector with OpenCV's and AprilTag's on drawn pictures with known poses.
+
+    judge.py --detect PROGRAM [--frames N] [--long]
+"""
+import argparse
+import collections
+import sys
+
+import cv2
+import numpy
+
+import detectors
+import photographs
+import scenes
+
+cv2.setNumThreads(1)
+FACING = numpy.diag([1.0, -1.0, -1.0])
+
+
+def pose(camera, size, corners):
+    """Rotation by OpenCV's solver: the judge's own, equal for all detectors."""
+    ok, vector, _ = cv2.solvePnP(scenes.square(size), corners, camera.matrix(), camera.distortion, flags=cv2.SOLVEPNP_IPPE_SQUARE)
+    return cv2.Rodrigues(vector)[0] if ok else numpy.eye(3)
+
+
+def degrees(a, b):
+    return numpy.degrees(numpy.arccos(numpy.clip((numpy.trace(a.T @ b) - 1) / 2, -1, 1)))
+
+
+def match(found, markers, camera):
+    """Pairs detections with markers: (per marker the corners or None, number of false ones)."""
+    rest = list(found)
+    result = []
+    for marker in markers:
+        truth = marker.corners(camera)
+        side = numpy.sqrt(cv2.contourArea(truth.astype(numpy.float32)))
+        hit = None
+        for index, (number, corners) in enumerate(rest):
+            if number == marker.number and numpy.linalg.norm(corners.mean(0) - truth.mean(0)) < 0.5 * side:
+                hit = corners
+                del rest[index]
+                break
+        result.append(hit)
+    return result, len(rest)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--detect", required=True, help="the built example `detect`")
+    parser.add_argument("--dictionary", default="apriltag36h11")
+    parser.add_argument("--frames", type=int, default=20, help="pictures of each condition")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--keep", help="folder for pictures in which scanout missed what others found")
+    arguments = parser.parse_args()
+    names = {"apriltag36h11": cv2.aruco.DICT_APRILTAG_36h11, "aruco4x4_50": cv2.aruco.DICT_4X4_50,
+             "aruco5x5_100": cv2.aruco.DICT_5X5_100, "aruco6x6_250": cv2.aruco.DICT_6X6_250,
+             "aruco_original": cv2.aruco.DICT_ARUCO_ORIGINAL}
+    dictionary = cv2.aruco.getPredefinedDictionary(names[arguments.dictionary])
+    all_detectors = [detectors.OpenCv(dictionary)]
+    if arguments.dictionary == "apriltag36h11":
+        all_detectors += [detectors.AprilTag(1.0), detectors.AprilTag(2.0)]
+    all_detectors.append(detectors.Scanout(arguments.detect, [arguments.dictionary]))
+    photos = photographs.load(photographs.files())
+    camera = scenes.Camera()
+    Row = lambda: {"found": 0, "all": 0, "false": 0, "corner": [], "rotation": [], "ms": []}
+    table = collections.defaultdict(Row)
+    for condition in scenes.CONDITIONS:
+        random = numpy.random.default_rng([arguments.seed, scenes.CONDITIONS.index(condition)])
+        for frame in range(arguments.frames):
+            picture, markers = scenes.scene(random, photos, camera, dictionary, condition, 6)
+            hits = {}
+            for detector in all_detectors:
+                found, ms = detector(picture)
+                pairs, false = match(found, markers, camera)
+                hits[detector.name] = pairs
+                for key in (condition, "together"):
+                    row = table[detector.name, key]
+                    row["ms"].append(ms)
+                    row["false"] += false
+                    row["all"] += len(markers)
+                    for marker, corners in zip(markers, pairs):
+                        if corners is None:
+                            continue
+                        row["found"] += 1
+                        truth = marker.corners(camera)
+                        row["corner"].append(numpy.linalg.norm(corners - truth, axis=1).mean())
+                        row["rotation"].append(degrees(pose(camera, marker.size, corners), marker.rotation))
+            if arguments.keep:
+                ours = hits["scanout"]
+                others = [any(hits[d.name][i] is not None for d in all_detectors[:-1]) for i in range(len(markers))]
+                if any(o is None and t for o, t in zip(ours, others)):
+                    shown = cv2.cvtColor(picture, cv2.COLOR_GRAY2BGR)
+                    for marker, o, t in zip(markers, ours, others):
+                        if o is None:
+                            cv2.polylines(shown, [numpy.int32(marker.corners(camera))], True, (0, 0, 255) if t else (255, 0, 0))
+                    cv2.imwrite(f"{arguments.keep}/{condition}-{frame}.png", shown)
+    for key in scenes.CONDITIONS + ["together"]:
+        print(f"\n{key}")
+        for detector in all_detectors:
+            row = table[detector.name, key]
+            corner = numpy.median(row["corner"]) if row["corner"] else numpy.nan
+            rotation = numpy.median(row["rotation"]) if row["rotation"] else numpy.nan
+            print(f"  {detector.name:28} recall {100 * row['found'] / max(1, row['all']):5.1f} %  corners {corner:6.3f} px  "
+                  f"rotation {rotation:6.3f} deg  {numpy.median(row['ms']):6.2f} ms  false {row['false']}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
