@@ -166,7 +166,7 @@ mod tests {
         // 1 0      counter-clockwise: 0 0
         // 1 0                         1 1
         assert_eq!(turned_back(0b1010, 2), 0b0011);
-        let code = 0x1234_5678_9;
+        let code = 0x1_2345_6789;
         let once = turned_back(code, 6);
         assert_ne!(once, code);
         assert_eq!((0..4).fold(code, |code, _| turned_back(code, 6)), code);
