@@ -1,6 +1,6 @@
-//! What the benchmarks draw: the same scenes for instruction counts, for times and for the peers.
+//! Instruction counts and times of what the crate `scanout-bench` defines, and of the peers that draw the same.
 
-pub mod lines;
+pub use scanout_bench::{lines, scenes, sphere};
+
 #[cfg(feature = "peers")]
 pub mod peers;
-pub mod scenes;

@@ -46,7 +46,7 @@ fn run(rounds: usize) {
     line_set("1,000 short lines", &lines::short(), rounds);
 }
 
-/// scanout with one and two threads, and the peers that draw spheres so.
+/// scanout with one thread, and the peers that draw spheres so.
 fn spheres(triangles: usize, size: [u16; 2], look: &str, rounds: usize) {
     let name = format!("{triangles}:{look}:{}x{}", size[0], size[1]);
     let data = Data::new(Case::parse(&name).expect("a case")).expect("a sphere");
@@ -70,11 +70,8 @@ fn spheres(triangles: usize, size: [u16; 2], look: &str, rounds: usize) {
         for (peer, drawer) in &peers {
             compare(&name, peer, &memory.colour, &drawer.picture(), BACKGROUND);
         }
-        let mut second = memory.clone();
-        let mut contestants: Vec<Contestant> = vec![
-            ("one thread", Box::new(|| memory.draw(black_box(scene), settings))),
-            ("two threads", Box::new(|| second.draw_threads(black_box(scene), settings, 2))),
-        ];
+        let mut contestants: Vec<Contestant> =
+            vec![("one thread", Box::new(|| memory.draw(black_box(scene), settings)))];
         for (peer, drawer) in &mut peers {
             contestants.push((peer, Box::new(|| drawer.draw())));
         }

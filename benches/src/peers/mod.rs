@@ -13,7 +13,8 @@ pub use self::euc::Euc;
 pub use self::lines::{EmbeddedGraphics, TinySkia};
 pub use self::retrofire::Retrofire;
 
-use crate::scenes::{LIGHT, sphere};
+use crate::scenes::LIGHT;
+use crate::sphere::sphere;
 
 /// Something that draws a frame.
 pub trait Drawer {

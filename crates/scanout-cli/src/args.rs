@@ -54,6 +54,8 @@ pub enum Command {
     Bake(BakeArgs),
     /// Draw the 16 test lines of every direction, and list their pixels
     Lines(LinesArgs),
+    /// Measure how fast this machine draws, and check that it draws the same pixels as every other
+    Bench(BenchArgs),
     /// Write the completions of a shell to standard output
     Completions(CompletionsArgs),
     /// Write the man page to standard output
@@ -364,6 +366,27 @@ pub struct LinesArgs {
     /// Size in pixels
     #[arg(long, value_name = "W,H", default_value = "241,241")]
     pub resolution: Resolution,
+}
+
+/// `scanout bench`.
+#[derive(Args, Debug)]
+#[command(after_help = crate::cmd::bench::EXPLANATION)]
+pub struct BenchArgs {
+    /// Only cases with one of these words in their name; or SOURCE:LOOK:WIDTHxHEIGHT of your own
+    #[arg(long, value_name = "WORD", value_delimiter = ',')]
+    pub cases: Vec<String>,
+    /// A model of your own, drawn flat, gouraud, textured and wire at 640x480; may be repeated
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub model: Vec<PathBuf>,
+    /// Seconds for each case and number of threads, 0.01 - 600
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.5, value_parser = between(0.01, 600.0))]
+    pub time: f64,
+    /// Numbers of threads, each 1 - 256 [default: 1, 2, and one a processor]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub threads: Vec<u16>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `scanout completions`.

@@ -9,7 +9,7 @@ use std::num::NonZero;
 use scanout::hash::FrameHash;
 use scanout::output::{Mono, PixelFormat, Rgb332, Rgb565, Rgb888};
 
-pub use pipeline::{Report, memory};
+pub use pipeline::{Report, draw_bands, memory};
 
 use crate::args;
 use crate::error::Result;
@@ -41,13 +41,17 @@ impl Options {
         }
     }
 
-    /// Lines in a band of a frame of `height` lines: a few bands a thread, so that none waits long for another.
+    /// Lines in a band of a frame of `height` lines.
     fn lines(&self, height: u16) -> u16 {
-        match self.bands {
-            Some(lines) => lines.min(height),
-            None if self.threads == 1 => height,
-            None => height.div_ceil((self.threads * 4).min(1024) as u16).max(8).min(height),
-        }
+        self.bands.map_or_else(|| band_lines(self.threads, height), |lines| lines.min(height))
+    }
+}
+
+/// Lines in a band where nobody chose: one band for one thread, else four a thread, so that none waits long for another.
+pub fn band_lines(threads: usize, height: u16) -> u16 {
+    match threads {
+        0 | 1 => height,
+        threads => height.div_ceil((threads * 4).min(1024) as u16).max(8).min(height),
     }
 }
 

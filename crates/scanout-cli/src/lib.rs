@@ -69,6 +69,7 @@ fn dispatch(cli: Cli) -> Result<()> {
         Command::Info(args) => cmd::info::run(&args),
         Command::Bake(args) => cmd::bake::run(&args),
         Command::Lines(args) => cmd::lines::run(&args),
+        Command::Bench(args) => cmd::bench::run(&args),
         Command::Completions(args) => cmd::completions::run(&args),
         Command::Man => cmd::man::run(),
     }

@@ -24,9 +24,18 @@ fn check(name: &str, arguments: &[&str]) {
 #[test]
 fn help_texts() {
     check("scanout", &["--help"]);
-    for command in
-        ["demo", "render", "view", "turntable", "info", "bake", "lines", "completions", "man"]
-    {
+    for command in [
+        "demo",
+        "render",
+        "view",
+        "turntable",
+        "info",
+        "bake",
+        "lines",
+        "bench",
+        "completions",
+        "man",
+    ] {
         check(command, &[command, "--help"]);
     }
 }

@@ -16,7 +16,7 @@ use crate::scene_builder::view::Fit;
 use crate::window::{self, NoWindow, Setting};
 use crate::{narrate, terminal};
 
-mod model;
+pub mod model;
 
 /// Shows the demonstration: a window, or the terminal and files.
 pub fn run(args: &DemoArgs) -> Result<()> {

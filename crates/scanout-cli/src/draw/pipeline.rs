@@ -56,30 +56,8 @@ pub fn draw<F: PixelFormat>(
     let mut words = vec![F::Word::default(); row * usize::from(height)];
     let bands = usize::from(height.div_ceil(lines));
     let threads = options.threads.min(bands);
-    {
-        let rows = |band: usize| -> Range<u16> {
-            let top = band as u16 * lines;
-            top..top.saturating_add(lines).min(height)
-        };
-        let queue = Mutex::new(words.chunks_mut(row * usize::from(lines)).enumerate());
-        let work = || -> std::result::Result<(), BandError> {
-            let mut depth = vec![0; usize::from(width) * usize::from(lines)];
-            loop {
-                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some((band, colour)) = next else { return Ok(()) };
-                prepared.draw_rows::<F>(rows(band), colour, &mut depth)?;
-            }
-        };
-        std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let mine = work();
-            let all = others
-                .into_iter()
-                .map(|other| other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-            all.fold(mine, |sum, one| sum.and(one))
-        })
-        .map_err(|error| failed(&error))?;
-    }
+    let mut depths = vec![0; threads * usize::from(width) * usize::from(lines)];
+    draw_bands::<F>(&prepared, &mut words, &mut depths, lines).map_err(|error| failed(&error))?;
     let band =
         usize::from(lines) * (row * size_of::<F::Word>() + usize::from(width) * size_of::<u16>());
     let report = Report {
@@ -92,6 +70,44 @@ pub fn draw<F: PixelFormat>(
         draw: start.elapsed(),
     };
     Ok((words, report))
+}
+
+/// Draws all rows of a prepared frame into `colour`, `F::words(width)` a row, in bands of `lines` lines. `depths` holds
+/// the depth memory of one band, `width * lines` words, for each thread; a thread takes the next band when it has
+/// finished one.
+///
+/// # Errors
+/// When `colour` is too short for the frame, or `depths` for one band.
+pub fn draw_bands<F: PixelFormat>(
+    frame: &frame::Frame,
+    colour: &mut [F::Word],
+    depths: &mut [u16],
+    lines: u16,
+) -> std::result::Result<(), BandError> {
+    let Settings { width, height, .. } = frame.settings();
+    let rows = |band: usize| -> Range<u16> {
+        let top = band as u16 * lines;
+        top..top.saturating_add(lines).min(height)
+    };
+    let bands = colour.chunks_mut(F::words(width.into()) * usize::from(lines));
+    let queue = Mutex::new(bands.enumerate());
+    let work = |depth: &mut [u16]| -> std::result::Result<(), BandError> {
+        loop {
+            let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((band, colour)) = next else { return Ok(()) };
+            frame.draw_rows::<F>(rows(band), colour, depth)?;
+        }
+    };
+    let mut depths = depths.chunks_mut(usize::from(width) * usize::from(lines));
+    let own = depths.next().unwrap_or_default();
+    std::thread::scope(|scope| {
+        let others: Vec<_> = depths.map(|depth| scope.spawn(|| work(depth))).collect();
+        let mine = work(own);
+        let all = others
+            .into_iter()
+            .map(|other| other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        all.fold(mine, |sum, one| sum.and(one))
+    })
 }
 
 /// Bytes that a scene's prepared contents need at most.
