@@ -43,9 +43,19 @@ class AprilTag:
 class Scanout:
     """The example `detect` of scanout-ar, fed with pictures through a pipe."""
 
-    def __init__(self, program, dictionaries):
-        self.process = subprocess.Popen([program, *dictionaries], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    def __init__(self, program, dictionaries, camera=None, size=None, fps=None, filtered=False):
+        options = []
+        if camera is not None:
+            lens = [camera.focal, camera.focal, *camera.centre, *camera.distortion]
+            options += ["--lens", ",".join(map(str, lens)), "--size", str(size)]
+        if fps is not None:
+            options += ["--fps", str(fps)]
+        if filtered:
+            options.append("--filter")
+        self.process = subprocess.Popen([program, *options, *dictionaries], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.words = 9 if camera is None else 21
         self.name = "scanout"
+        self.poses = {}
 
     def __call__(self, picture):
         height, width = picture.shape
@@ -53,7 +63,15 @@ class Scanout:
         self.process.stdin.flush()
         words = self.process.stdout.readline().split()
         found = []
-        for i in range(1, len(words), 9):
+        self.poses = {}
+        for i in range(1, len(words), self.words):
             number = int(words[i].split(b":")[1])
             found.append((number, numpy.array(words[i + 1 : i + 9], float).reshape(4, 2)))
+            if self.words > 9:
+                pose = numpy.array(words[i + 9 : i + 21], float)
+                self.poses[number] = pose[:9].reshape(3, 3), pose[9:]
         return found, float(words[0]) / 1e3
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()

@@ -35,7 +35,7 @@ pub struct Detection {
     /// The outer corners of its black border: top left, top right, bottom right, bottom left of the upright marker. Pixels, the
     /// first pixel's centre at (0.5, 0.5).
     pub corners: Corners,
-    /// How well picture and pattern agree, 0 - 1.
+    /// How well picture and pattern agree: the part of the edges' contrast that the fitted pattern explains, up to 1.
     pub agreement: f64,
     /// Standard deviation of the blur across edges, pixels.
     pub blur: f64,
@@ -59,15 +59,25 @@ pub struct Parameters {
     pub margin: u8,
     /// Shortest side of a marker, pixels of its level.
     pub least_side: usize,
-    /// Wrong bits that are put right, at most; less where the dictionary allows fewer.
+    /// Wrong bits that are put right, at most; never more than 3/5 of what the dictionary could correct, as in OpenCV.
     pub wrong: u8,
     /// Least agreement of the cells with the pattern, 0 - 1.
     pub agreement: f64,
+    /// Part of the edges' contrast that the fitted pattern must explain, 0 - 1: without and with wrong bits.
+    pub fit: (f64, f64),
 }
 
 impl Default for Parameters {
     fn default() -> Self {
-        Self { levels: 3, radius: 7, margin: 5, least_side: 8, wrong: 3, agreement: 0.8 }
+        Self {
+            levels: 3,
+            radius: 7,
+            margin: 5,
+            least_side: 8,
+            wrong: 3,
+            agreement: 0.8,
+            fit: (0.7, 0.85),
+        }
     }
 }
 
@@ -225,11 +235,16 @@ impl Search<'_> {
             &detection.0.corners,
             (reading.black, reading.white),
         );
-        if let Some(fitted) = fitted {
-            detection.0.corners = fitted.corners;
-            detection.0.agreement = detection.0.agreement.min(fitted.agreement);
-            detection.0.blur = fitted.blur;
+        let Some(fitted) = fitted else { return };
+        // Wrong bits ask for a clearer picture in return.
+        let least =
+            if detection.0.wrong == 0 { self.parameters.fit.0 } else { self.parameters.fit.1 };
+        if fitted.agreement < least {
+            return;
         }
+        detection.0.corners = fitted.corners;
+        detection.0.agreement = fitted.agreement;
+        detection.0.blur = fitted.blur;
         self.add(detection.0);
     }
 
@@ -253,7 +268,7 @@ impl Search<'_> {
                     new
                 }
             };
-            let tolerated = self.parameters.wrong.min(dictionary.correctable);
+            let tolerated = self.parameters.wrong.min(dictionary.correctable * 3 / 5);
             let Some((found, agreement)) = reading.find(dictionary, tolerated) else { continue };
             let better = best.as_ref().is_none_or(|best| agreement > best.0.0.agreement);
             if agreement >= self.parameters.agreement && better {

@@ -25,7 +25,7 @@ pub struct OneEuro {
 
 impl Default for OneEuro {
     fn default() -> Self {
-        Self { minimum: 1.0, beta: 30.0 }
+        Self { minimum: 1.5, beta: 60.0 }
     }
 }
 

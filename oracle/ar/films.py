@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Poses over time, beside OpenCV's solver on the corners of OpenCV and AprilTag: flips, trembling, lag; and false markers.
+
+    films.py --detect PROGRAM [--films N] [--photographs N]
+"""
+import argparse
+
+import cv2
+import numpy
+
+import detectors
+import photographs
+import scenes
+from judge import degrees
+
+cv2.setNumThreads(1)
+SIZE = 0.08
+FPS = 30
+
+
+def solve(camera, corners):
+    """OpenCV's planar solver and its refinement."""
+    _, r, t = cv2.solvePnP(scenes.square(SIZE), corners, camera.matrix(), camera.distortion, flags=cv2.SOLVEPNP_IPPE_SQUARE)
+    r, t = cv2.solvePnPRefineLM(scenes.square(SIZE), corners, camera.matrix(), camera.distortion, r, t)
+    return cv2.Rodrigues(r)[0], t.ravel()
+
+
+class Film:
+    """A marker that moves smoothly before a camera."""
+
+    def __init__(self, random, photos, camera, dictionary, condition, side, tilt, moving=True):
+        self.random, self.camera, self.condition = random, camera, condition
+        self.photo = photographs.crop(random, photos[random.integers(len(photos))], camera.width, camera.height).astype(float)
+        self.dictionary, self.number = dictionary, int(random.integers(dictionary.bytesList.shape[0]))
+        self.distance = camera.focal * SIZE / side
+        self.tilt, self.moving = numpy.radians(tilt), moving
+        self.phase = random.uniform(0, 6.28, 6)
+        self.rate = random.uniform(0.5, 1.5, 6)
+        self.black, self.white = random.uniform(10, 45), random.uniform(170, 245)
+
+    def marker(self, time):
+        wave = numpy.sin(self.phase + self.rate * time * self.moving)
+        tilt = self.tilt * (0.7 + 0.3 * wave[3])
+        turn, _ = cv2.Rodrigues(numpy.array([0, 0, self.phase[5] + 0.3 * wave[5]]))
+        axis = self.phase[4] + 0.5 * wave[4]
+        lean, _ = cv2.Rodrigues(tilt * numpy.array([numpy.cos(axis), numpy.sin(axis), 0]))
+        rotation = lean @ numpy.diag([1.0, -1.0, -1.0]) @ turn
+        reach = self.distance * numpy.array([0.15, 0.1, 0.1])
+        return scenes.Marker(self.dictionary, self.number, SIZE, rotation, reach * wave[:3] + [0, 0, self.distance])
+
+    def frame(self, index):
+        marker = self.marker(index / FPS)
+        canvas = self.photo.copy()
+        scenes.paint(canvas, self.camera, marker, self.black, self.white)
+        state = numpy.random.default_rng(index) if self.condition != "still" else self.random
+        return scenes.finish(state if self.condition == "noise" else self.random, canvas, self.condition), marker
+
+
+def flips(arguments, photos, dictionary, camera):
+    """How often the pose leans the wrong way: more than 20 degrees off, and nearer to the mirrored pose."""
+    random = numpy.random.default_rng([arguments.seed, 1])
+    count = {"OpenCV": [0, 0], "AprilTag 3": [0, 0], "scanout, single frames": [0, 0], "scanout, filtered": [0, 0]}
+    errors = {name: [] for name in count}
+    cv, tag = detectors.OpenCv(dictionary), detectors.AprilTag(1.0)
+    for film_number in range(arguments.films):
+        side, tilt = numpy.exp(random.uniform(*numpy.log([24, 110]))), random.uniform(10, 65)
+        condition = ["clean", "noise", "jpeg", "light"][film_number % 4]
+        film = Film(random, photos, camera, dictionary, condition, side, tilt)
+        still = detectors.Scanout(arguments.detect, ["apriltag36h11"], camera, SIZE)
+        track = detectors.Scanout(arguments.detect, ["apriltag36h11"], camera, SIZE, FPS, True)
+        for index in range(arguments.length):
+            picture, marker = film.frame(index)
+            for name, detector in (("OpenCV", cv), ("AprilTag 3", tag), ("scanout, single frames", still),
+                                   ("scanout, filtered", track)):
+                found, _ = detector(picture)
+                corners = [c for n, c in found if n == film.number]
+                if not corners:
+                    continue
+                if isinstance(detector, detectors.Scanout):
+                    rotation = detector.poses[film.number][0]
+                else:
+                    rotation = solve(camera, corners[0])[0]
+                error = degrees(rotation, marker.rotation)
+                errors[name].append(error)
+                count[name][0] += error > 20
+                count[name][1] += 1
+        still.close()
+        track.close()
+    print(f"\nflips ({arguments.films} films of {arguments.length} frames, sides 24 - 110 px, leaning 10 - 65 degrees)")
+    for name, (bad, all_frames) in count.items():
+        print(f"  {name:24} {100 * bad / max(1, all_frames):6.2f} % of {all_frames} poses, "
+              f"rotation error median {numpy.median(errors[name]):.3f} deg")
+    return count
+
+
+def trembling(arguments, photos, dictionary, camera):
+    """The top of a cube on a marker that stands still, 60 frames, noise of 3 grey levels: standard deviation in pixels."""
+    result = {}
+    for what, tilt in (("front-on", 0.0), ("tilted 45 degrees", 45.0)):
+        print(f"\ntrembling, {what}, marker of 80 px")
+        random = numpy.random.default_rng([arguments.seed, 2])
+        marker = scenes.Marker(dictionary, 7, SIZE, cv2.Rodrigues(numpy.radians([tilt, 0, 0]))[0] @ numpy.diag([1.0, -1, -1])
+                               @ cv2.Rodrigues(numpy.radians([0, 0, 20.0]))[0], [0.01, 0.005, camera.focal * SIZE / 80])
+        canvas = photographs.crop(random, photos[0], camera.width, camera.height).astype(float)
+        scenes.paint(canvas, camera, marker)
+        canvas = cv2.GaussianBlur(canvas, (0, 0), 0.5)
+        top = scenes.square(SIZE) + [0, 0, SIZE]
+        frames = [numpy.clip(numpy.round(canvas + random.normal(0, 3, canvas.shape)), 0, 255).astype(numpy.uint8) for _ in range(60)]
+        options = (camera, SIZE)
+        for name, detector in (
+            ("OpenCV", detectors.OpenCv(dictionary)),
+            ("AprilTag 3", detectors.AprilTag(1.0)),
+            ("scanout, single frames", detectors.Scanout(arguments.detect, ["apriltag36h11"], *options)),
+            ("scanout, filtered", detectors.Scanout(arguments.detect, ["apriltag36h11"], *options, FPS, True)),
+        ):
+            places = []
+            for picture in frames:
+                found, _ = detector(picture)
+                corners = [c for n, c in found if n == 7]
+                if corners:
+                    pose = detector.poses[7] if isinstance(detector, detectors.Scanout) else solve(camera, corners[0])
+                    places.append(camera.project(top @ pose[0].T + pose[1]))
+            spread = numpy.sqrt(numpy.var(places, 0).sum(-1).mean()) if places else numpy.nan
+            result[what, name] = spread
+            print(f"  {name:24} {spread:6.3f} px")
+    return result
+
+
+def false_markers(arguments, photos, camera):
+    """Markers found where there are none, all dictionaries that the issue names at once."""
+    random = numpy.random.default_rng([arguments.seed, 3])
+    names = ["aruco4x4_50", "aruco5x5_100", "aruco6x6_250", "aruco_original", "apriltag36h11"]
+    detector = detectors.Scanout(arguments.detect, names)
+    false = 0
+    for _ in range(arguments.photographs):
+        picture = photographs.crop(random, photos[random.integers(len(photos))], 640, 480)
+        false += len(detector(picture)[0])
+    print(f"\nfalse markers in {arguments.photographs} pieces of {len(photos)} photographs, five dictionaries at once: {false}")
+    return false
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--detect", required=True)
+    parser.add_argument("--films", type=int, default=16)
+    parser.add_argument("--length", type=int, default=45)
+    parser.add_argument("--photographs", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    photos = photographs.load(photographs.files())
+    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
+    camera = scenes.Camera()
+    false_markers(arguments, photos, camera)
+    trembling(arguments, photos, dictionary, camera)
+    flips(arguments, photos, dictionary, camera)
+
+
+if __name__ == "__main__":
+    main()
