@@ -1,0 +1,343 @@
+//! A card and its files: what may fail is tried again and told, and the volume may be in a partition or bare.
+//!
+//! ```text
+//!  Files: paths, long names, sub-directories       embedded-sdmmc's VolumeManager
+//!    |                                                |
+//!  Careful: tries again, remembers what failed and what was read
+//!    |      a bare volume gets a partition table in front: block 0 is made up, block n is the card's n - 1
+//!  Card: an SD card in SPI mode, or a test's memory
+//! ```
+//!
+//! FAT32 and FAT16, blocks of 512 bytes. Names match without regard to the case of ASCII letters.
+
+use core::cell::Cell;
+use core::ops::ControlFlow;
+
+use embedded_sdmmc::filesystem::ToShortFileName;
+use embedded_sdmmc::{
+    Block, BlockCount, BlockDevice, BlockIdx, ClusterId, Directory, Error, LfnBuffer, Mode,
+    ShortFileName, TimeSource, Timestamp, VolumeIdx, VolumeManager,
+};
+
+use crate::fault::{CardFault, Fault, name};
+
+/// How often a sector is asked for before its failure is told.
+pub const TRIES: u32 = 3;
+/// Bytes handed on at once: a sector.
+pub const CHUNK: usize = 512;
+/// Longest name of a file or folder in bytes of UTF-8.
+const LONG_NAME: usize = 256;
+
+/// Entries that a folder may have.
+const MOST_ENTRIES: u32 = 65_536;
+
+/// A card that can be started anew.
+pub trait Card: BlockDevice {
+    /// Starts the card, whatever happened before: slowly, then fast.
+    ///
+    /// # Errors
+    /// What it says, or that it says nothing.
+    fn start(&self) -> Result<(), Self::Error>;
+
+    /// What an error means.
+    fn fault(error: &Self::Error) -> CardFault;
+}
+
+/// What reading cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Sectors read, repeated ones counted again.
+    pub sectors: u32,
+    /// Sectors that were asked for again.
+    pub repeated: u32,
+}
+
+/// A card that is tried again.
+struct Careful<'c, C> {
+    card: &'c C,
+    /// Sectors that a bare volume has; `None` for a partitioned card.
+    bare: Option<u32>,
+    cost: &'c Cell<Cost>,
+    failed: &'c Cell<Option<Fault>>,
+}
+
+impl<C: Card> Careful<'_, C> {
+    fn fetch(&self, block: &mut Block, sector: u32) -> Result<(), C::Error> {
+        let mut tries = 0;
+        loop {
+            tries += 1;
+            let mut cost = self.cost.get();
+            cost.sectors += 1;
+            cost.repeated += u32::from(tries > 1);
+            self.cost.set(cost);
+            match self.card.read(core::slice::from_mut(block), BlockIdx(sector)) {
+                Ok(()) => return Ok(()),
+                Err(error) => {
+                    let fault = C::fault(&error);
+                    // Only a wrong checksum may come right; a card that is gone costs a tenth of a second a try.
+                    if fault != CardFault::Checksum || tries == TRIES {
+                        self.failed.set(Some(Fault::Card { fault, sector, tries }));
+                        return Err(error);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<C: Card> BlockDevice for Careful<'_, C> {
+    type Error = C::Error;
+
+    fn read(&self, blocks: &mut [Block], start: BlockIdx) -> Result<(), C::Error> {
+        for (block, index) in blocks.iter_mut().zip(start.0..) {
+            match self.bare {
+                Some(sectors) if index == 0 => *block = partition_table(sectors),
+                Some(_) => self.fetch(block, index - 1)?,
+                None => self.fetch(block, index)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn write(&self, _blocks: &[Block], _start: BlockIdx) -> Result<(), C::Error> {
+        // Files are opened for reading only.
+        Ok(())
+    }
+
+    fn num_blocks(&self) -> Result<BlockCount, C::Error> {
+        self.card.num_blocks()
+    }
+}
+
+/// A partition table with one FAT32 partition from sector 1 on.
+fn partition_table(sectors: u32) -> Block {
+    let mut block = Block::new();
+    block[450] = 0x0c;
+    block[454] = 1;
+    block[458..462].copy_from_slice(&sectors.to_le_bytes());
+    block[510..].copy_from_slice(&[0x55, 0xaa]);
+    block
+}
+
+fn two(block: &Block, at: usize) -> u32 {
+    u32::from(block[at]) | u32::from(block[at + 1]) << 8
+}
+
+fn four(block: &Block, at: usize) -> u32 {
+    two(block, at) | two(block, at + 2) << 16
+}
+
+/// The number of clusters of a volume, from its boot sector, which must make sense: embedded-sdmmc computes with it.
+fn clusters(block: &Block) -> Result<u32, Fault> {
+    let either = |short, long| if short != 0 { short } else { long };
+    let total = either(two(block, 19), four(block, 32));
+    let fat = either(two(block, 22), four(block, 36));
+    let (per_cluster, reserved, fats) =
+        (u32::from(block[13]), two(block, 14), u32::from(block[16]));
+    let root = (two(block, 17) * 32).div_ceil(Block::LEN_U32);
+    let used = fat.checked_mul(fats).and_then(|fats| fats.checked_add(reserved + root));
+    let sound = two(block, 510) == 0xaa55
+        && two(block, 11) == Block::LEN_U32
+        && per_cluster.is_power_of_two()
+        && reserved > 0
+        && matches!(fats, 1 | 2);
+    let data = used.and_then(|used| total.checked_sub(used)).filter(|_| sound);
+    // Where FAT32's root folder begins; FAT16's has a place of its own.
+    let first = if two(block, 22) == 0 { four(block, 44) } else { 2 };
+    match data.map(|data| data / per_cluster) {
+        // A table of 32 bits names at most 2^28 clusters and must be as long as the clusters are many.
+        Some(clusters @ 1..0x0fff_fff0)
+            if clusters <= fat.saturating_mul(256) && (2..clusters + 2).contains(&first) =>
+        {
+            Ok(clusters)
+        }
+        _ => Err(Fault::Format("its boot sector makes no sense")),
+    }
+}
+
+/// What sector 0 is.
+enum Sector0 {
+    /// A volume of so many sectors.
+    Bare(u32),
+    /// A partition table; which of its entries, and where that begins.
+    Partition { index: usize, first: u32 },
+}
+
+fn examine(block: &Block) -> Result<Sector0, Fault> {
+    if two(block, 510) != 0xaa55 {
+        return Err(Fault::Format("sector 0 has no signature"));
+    }
+    // A volume's boot sector begins with a jump and says how large sectors are; code of a partition table's does not.
+    if matches!(block[0], 0xeb | 0xe9) && two(block, 11) == Block::LEN_U32 && block[16] != 0 {
+        let short = two(block, 19);
+        return Ok(Sector0::Bare(if short != 0 { short } else { four(block, 32) }));
+    }
+    if &block[3..11] == b"EXFAT   " {
+        return Err(Fault::Format("the volume is exFAT"));
+    }
+    let kinds = [0, 1, 2, 3].map(|i| block[450 + 16 * i]);
+    match kinds.iter().position(|kind| matches!(kind, 0x0b | 0x0c | 0x04 | 0x06 | 0x0e)) {
+        Some(index) => Ok(Sector0::Partition { index, first: four(block, 454 + 16 * index) }),
+        None if kinds.contains(&0xee) => Err(Fault::Format("it has a GPT")),
+        None if kinds.contains(&0x07) => Err(Fault::Format("a partition is exFAT or NTFS")),
+        None => Err(Fault::Format("no partition is FAT")),
+    }
+}
+
+/// The card has no clock.
+struct NoTime;
+
+impl TimeSource for NoTime {
+    fn get_timestamp(&self) -> Timestamp {
+        Timestamp {
+            year_since_1970: 0,
+            zero_indexed_month: 0,
+            zero_indexed_day: 0,
+            hours: 0,
+            minutes: 0,
+            seconds: 0,
+        }
+    }
+}
+
+type Manager<'c, C> = VolumeManager<Careful<'c, C>, NoTime, 3, 1, 1>;
+type Folder<'f, 'c, C> = Directory<'f, Careful<'c, C>, NoTime, 3, 1, 1>;
+
+/// Starts a card, opens its first FAT volume, and lends its files to `with`.
+///
+/// # Errors
+/// The card's, the volume's, or what `with` says.
+pub fn with_files<C: Card, R>(
+    card: &C,
+    cost: &Cell<Cost>,
+    with: impl FnOnce(&Files<'_, '_, C>) -> Result<R, Fault>,
+) -> Result<R, Fault> {
+    let start = |error: C::Error| match C::fault(&error) {
+        CardFault::Gone => Fault::Card { fault: CardFault::Missing, sector: 0, tries: 1 },
+        fault => Fault::Card { fault, sector: 0, tries: 1 },
+    };
+    card.start().map_err(start)?;
+    let failed = Cell::new(None);
+    let mut careful = Careful { card, bare: None, cost, failed: &failed };
+    let mut block = Block::new();
+    let told = |error: C::Error| failed.take().unwrap_or_else(|| start(error));
+    careful.fetch(&mut block, 0).map_err(told)?;
+    let partition = match examine(&block)? {
+        Sector0::Bare(sectors) => {
+            careful.bare = Some(sectors);
+            0
+        }
+        Sector0::Partition { index, first } => {
+            let told = |error: C::Error| failed.take().unwrap_or_else(|| start(error));
+            careful.fetch(&mut block, first).map_err(told)?;
+            index
+        }
+    };
+    let clusters = clusters(&block)?;
+    let manager: Manager<'_, C> = VolumeManager::new_with_limits(careful, NoTime, 0);
+    let told = |error| told_as(error, &failed, "");
+    let volume = manager.open_volume(VolumeIdx(partition)).map_err(told)?;
+    let root = volume.open_root_dir().map_err(told)?;
+    with(&Files { root: &root, failed: &failed, clusters })
+}
+
+/// An error of the file system in words.
+fn told_as<E: core::error::Error>(
+    error: Error<E>,
+    failed: &Cell<Option<Fault>>,
+    path: &str,
+) -> Fault {
+    match (failed.take(), error) {
+        (Some(fault), _) => fault,
+        (None, Error::NotFound | Error::FilenameError(_)) => Fault::Missing(name(path)),
+        (None, Error::OpenedDirAsFile | Error::OpenedFileAsDir) => Fault::Kind(name(path)),
+        (None, Error::FormatError(what)) => Fault::Format(what),
+        (None, Error::UnterminatedFatChain) => Fault::Damaged("a chain of clusters has no end"),
+        (None, Error::BadCluster) => Fault::Damaged("a bad cluster"),
+        (None, Error::EndOfFile) => Fault::Damaged("a file is shorter than it says"),
+        (None, _) => Fault::Damaged("it contradicts itself"),
+    }
+}
+
+/// The files of a volume.
+pub struct Files<'f, 'c, C: Card> {
+    root: &'f Folder<'f, 'c, C>,
+    failed: &'c Cell<Option<Fault>>,
+    clusters: u32,
+}
+
+impl<C: Card> Files<'_, '_, C> {
+    /// Reads a file from its beginning, a sector at most at a time, until its end or until `sink` breaks off. Gives the
+    /// number of bytes handed on.
+    ///
+    /// # Errors
+    /// The card's and the file system's; `sink`'s; [`Fault::Empty`] for a file without a byte.
+    pub fn read(
+        &self,
+        path: &str,
+        mut sink: impl FnMut(&[u8]) -> Result<ControlFlow<()>, Fault>,
+    ) -> Result<u32, Fault> {
+        let told = |error| told_as(error, self.failed, path);
+        let mut parts = path.split('/').filter(|part| !part.is_empty()).peekable();
+        let mut folder = self.root.open_dir(ShortFileName::this_dir()).map_err(told)?;
+        while let Some(part) = parts.next() {
+            let short = self.find(&folder, part, path)?;
+            if parts.peek().is_some() {
+                folder.change_dir(short).map_err(told)?;
+                continue;
+            }
+            let file = folder.open_file_in_dir(short, Mode::ReadOnly).map_err(told)?;
+            if file.length() == 0 {
+                return Err(Fault::Empty(name(path)));
+            }
+            let (mut chunk, mut bytes) = ([0; CHUNK], 0);
+            loop {
+                let length = file.read(&mut chunk).map_err(told)?;
+                bytes += length as u32;
+                if length == 0 || sink(&chunk[..length])?.is_break() {
+                    return Ok(bytes);
+                }
+            }
+        }
+        Err(Fault::Missing(name(path)))
+    }
+
+    /// The short name of an entry, found by its long or its short one.
+    fn find(
+        &self,
+        folder: &Folder<'_, '_, C>,
+        part: &str,
+        path: &str,
+    ) -> Result<ShortFileName, Fault> {
+        let mut storage = [0; LONG_NAME];
+        let mut long = LfnBuffer::new(&mut storage);
+        let short = part.to_short_filename().ok();
+        let (mut found, mut outside, mut entries) = (None, false, 0u32);
+        folder
+            .iterate_dir_lfn(&mut long, |entry, long| {
+                let hit = long.is_some_and(|long| long.eq_ignore_ascii_case(part))
+                    || short.as_ref() == Some(&entry.name);
+                if hit && !entry.attributes.is_volume() {
+                    found = Some(entry.name);
+                    // Clusters count from 2; 0 is that of an empty file.
+                    outside = entry.cluster >= ClusterId::EMPTY + (self.clusters + 2);
+                    return ControlFlow::Break(());
+                }
+                // A chain of clusters may bite its own tail.
+                entries += 1;
+                if entries > MOST_ENTRIES {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            })
+            .map_err(|error| told_as(error, self.failed, path))?;
+        if entries > MOST_ENTRIES {
+            return Err(Fault::Damaged("a folder has no end"));
+        }
+        if outside {
+            return Err(Fault::Damaged("a file begins outside the volume"));
+        }
+        found.ok_or_else(|| Fault::Missing(name(path)))
+    }
+}

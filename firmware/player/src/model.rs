@@ -1,0 +1,513 @@
+//! A model and its texture into the caller's memory: chunks of a file of any size in, a mesh out, in one pass.
+//!
+//! ```text
+//!  v  -> millionths, i32      f -> triangles, face normals          finish: the box about what was referred to
+//!  vn -> Q2.14, unit          (corners refer backwards)                     -> one grid, positions Q1.15
+//!  vt -> Q16.16, v down
+//! ```
+//!
+//! The grid and its rounding are those of the PC's loader (`scanout_assets::load`), so the frames are the same bits: the
+//! box's centre at 0, its longest half side at 32760, to the nearest. Coordinates are exact for files of up to six
+//! decimals, as Blender writes them; finer ones are rounded to millionths.
+//!
+//! | | |
+//! |---|---|
+//! | quads | cut along the shorter diagonal that lies inside, the first when about equal |
+//! | five corners and more | a fan; right for convex polygons |
+//! | normals | one a face where each face's corners share one; otherwise from its corners' positions |
+//! | texels | RGB565, nearest |
+//!
+//! What it will not do: forward references, materials (`usemtl` is passed over), smooth normals.
+
+use scanout::math::normalise;
+use scanout::mesh::{Mesh, Normals};
+use scanout::texture::{Texels, Texture};
+use scanout_assets::number::Number;
+use scanout_assets::obj::{self, Corner, Element, Event};
+use scanout_assets::ppm;
+
+use crate::fault::{ModelFault, Part};
+use crate::scene::{Model, Placement};
+
+/// Greatest magnitude of a position on the grid, as the PC's loader has it.
+const RANGE: i64 = 32_760;
+/// Farthest coordinate, in millionths.
+const FAR: i64 = 2_000_000_000;
+/// "No texture coordinate here".
+const NONE: u16 = u16::MAX;
+
+/// Memory for a model. Bytes an element: 18 a position, 6 a normal, 8 a texture coordinate, 18 a triangle, 2 a texel.
+#[derive(Debug)]
+pub struct ModelMemory<'m> {
+    /// Positions as they are read, in millionths.
+    pub millionths: &'m mut [[i32; 3]],
+    /// Positions on the grid, as many.
+    pub positions: &'m mut [[i16; 3]],
+    /// The file's normals.
+    pub normals: &'m mut [[i16; 3]],
+    /// Texture coordinates; one more than the file has may be needed.
+    pub uvs: &'m mut [[i32; 2]],
+    /// Triangles.
+    pub triangles: &'m mut [[u16; 3]],
+    /// Their texture coordinates, as many.
+    pub uv_triangles: &'m mut [[u16; 3]],
+    /// Their normals, as many.
+    pub face_normals: &'m mut [[i16; 3]],
+    /// The texture.
+    pub texels: &'m mut [u16],
+}
+
+/// Counts of what was read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Totals {
+    /// Positions.
+    pub positions: usize,
+    /// Normals.
+    pub normals: usize,
+    /// Texture coordinates.
+    pub uvs: usize,
+    /// Triangles.
+    pub triangles: usize,
+}
+
+/// Reads an OBJ file, chunk by chunk.
+#[derive(Debug)]
+pub struct ObjReader<'r, 'm> {
+    parser: obj::Parser,
+    state: State<'r, 'm>,
+}
+
+#[derive(Debug)]
+struct State<'r, 'm> {
+    memory: &'r mut ModelMemory<'m>,
+    totals: Totals,
+    /// The face being read: its first corners, and how many there were.
+    corners: [Corner; 4],
+    count: usize,
+    in_face: bool,
+    /// Every face so far has one normal from the file.
+    flat: bool,
+    textured: bool,
+    /// Corners without a texture coordinate.
+    bare: bool,
+    /// In millionths, of the positions that faces refer to.
+    low: [i32; 3],
+    high: [i32; 3],
+}
+
+/// Why an OBJ can't be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObjError {
+    /// Malformed.
+    Syntax(obj::Error),
+    /// Well-formed, but not to be shown.
+    Model(ModelFault),
+}
+
+impl<'r, 'm> ObjReader<'r, 'm> {
+    /// A reader before the first byte.
+    pub fn new(memory: &'r mut ModelMemory<'m>) -> Self {
+        let nothing = Corner { position: 0, uv: None, normal: None };
+        let state = State {
+            memory,
+            totals: Totals::default(),
+            corners: [nothing; 4],
+            count: 0,
+            in_face: false,
+            flat: true,
+            textured: false,
+            bare: false,
+            low: [i32::MAX; 3],
+            high: [i32::MIN; 3],
+        };
+        ObjReader { parser: obj::Parser::new(), state }
+    }
+
+    /// Reads a chunk.
+    ///
+    /// # Errors
+    /// The first line that is malformed or has no room; feed no more then.
+    pub fn feed(&mut self, chunk: &[u8]) -> Result<(), ObjError> {
+        // By lines, so that a fault of the model has its line's number, too.
+        for piece in chunk.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
+            self.step(|parser, mut sink| parser.feed(piece, &mut sink))?;
+        }
+        Ok(())
+    }
+
+    /// The file ends here.
+    ///
+    /// # Errors
+    /// As [`feed`](Self::feed), or there is nothing to draw.
+    pub fn finish(mut self) -> Result<Built, ObjError> {
+        self.step(|parser, mut sink| parser.finish(&mut sink))?;
+        self.state.finish().map_err(ObjError::Model)
+    }
+
+    fn step(
+        &mut self,
+        read: impl FnOnce(&mut obj::Parser, &mut dyn FnMut(Event<'_>)) -> Result<(), obj::Error>,
+    ) -> Result<(), ObjError> {
+        let ObjReader { parser, state } = self;
+        let (line, mut fault) = (parser.line(), None);
+        let result = read(parser, &mut |event| {
+            if fault.is_none() {
+                fault = state.event(event, line).err();
+            }
+        });
+        match (fault, result) {
+            (Some(fault), _) => Err(ObjError::Model(fault)),
+            (None, result) => result.map_err(ObjError::Syntax),
+        }
+    }
+}
+
+impl State<'_, '_> {
+    fn event(&mut self, event: Event<'_>, line: u32) -> Result<(), ModelFault> {
+        let full = |part, most| ModelFault::TooMany { line, part, most };
+        match event {
+            Event::Position { xyz, .. } => {
+                // One step of an index is left for "no index".
+                let most =
+                    self.memory.millionths.len().min(self.memory.positions.len()).min(65_535);
+                if self.totals.positions == most {
+                    return Err(full(Part::Positions, most));
+                }
+                let far = ModelFault::TooFar { line };
+                let [x, y, z] = xyz.map(millionths);
+                let position = [x.ok_or(far)?, y.ok_or(far)?, z.ok_or(far)?];
+                self.memory.millionths[self.totals.positions] = position;
+                self.totals.positions += 1;
+            }
+            Event::Normal(xyz) => {
+                let slot = self.memory.normals.get_mut(self.totals.normals);
+                let Some(slot) = slot else {
+                    return Err(full(Part::Normals, self.memory.normals.len()));
+                };
+                // Any length does; one without direction is zero, and the face's own is taken.
+                let unit = normalise(xyz.map(|n| i64::from(n.to_q16()))).unwrap_or([0; 3]);
+                *slot = unit.map(|v| ((v + (1 << 15)) >> 16) as i16);
+                self.totals.normals += 1;
+            }
+            Event::Uv([u, v]) => {
+                let most = self.memory.uvs.len().min(usize::from(NONE));
+                if self.totals.uvs == most {
+                    return Err(full(Part::TextureCoordinates, most));
+                }
+                let down = i32::try_from(65_536 - i64::from(v.to_q16())).unwrap_or(i32::MAX);
+                self.memory.uvs[self.totals.uvs] = [u.to_q16(), down];
+                self.totals.uvs += 1;
+            }
+            Event::Begin(element) => {
+                self.in_face = element == Element::Face;
+                self.count = 0;
+            }
+            Event::Corner(corner) if self.in_face => return self.corner(corner, line),
+            Event::End if self.in_face => {
+                self.in_face = false;
+                match self.count {
+                    3 => self.triangle([0, 1, 2], line)?,
+                    4 if self.second_diagonal() => {
+                        self.triangle([0, 1, 3], line)?;
+                        self.triangle([1, 2, 3], line)?;
+                    }
+                    4 => self.first_diagonal(line)?,
+                    _ => {}
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn corner(&mut self, corner: Corner, line: u32) -> Result<(), ModelFault> {
+        let within = |index: Option<u32>, total| index.is_none_or(|index| (index as usize) < total);
+        if !within(Some(corner.position), self.totals.positions)
+            || !within(corner.uv, self.totals.uvs)
+            || !within(corner.normal, self.totals.normals)
+        {
+            return Err(ModelFault::Undefined { line });
+        }
+        for (axis, v) in self.memory.millionths[corner.position as usize].into_iter().enumerate() {
+            self.low[axis] = self.low[axis].min(v);
+            self.high[axis] = self.high[axis].max(v);
+        }
+        self.textured |= corner.uv.is_some();
+        self.bare |= corner.uv.is_none();
+        let normal = |corner: &Corner| {
+            let normal = self.memory.normals[corner.normal? as usize];
+            (normal != [0; 3]).then_some(normal)
+        };
+        let own = normal(&corner);
+        self.flat &= own.is_some() && (self.count == 0 || own == normal(&self.corners[0]));
+        // The fifth corner shows that this is no quad; from then on the last slot moves along.
+        if self.count >= 4 {
+            if self.count == 4 {
+                self.first_diagonal(line)?;
+            }
+            self.corners[2] = self.corners[3];
+            self.corners[3] = corner;
+            self.count += 1;
+            return self.triangle([0, 2, 3], line);
+        }
+        self.corners[self.count] = corner;
+        self.count += 1;
+        Ok(())
+    }
+
+    fn first_diagonal(&mut self, line: u32) -> Result<(), ModelFault> {
+        self.triangle([0, 1, 2], line)?;
+        self.triangle([0, 2, 3], line)
+    }
+
+    fn triangle(&mut self, which: [usize; 3], line: u32) -> Result<(), ModelFault> {
+        let index = self.totals.triangles;
+        let memory = &mut *self.memory;
+        let most =
+            memory.triangles.len().min(memory.uv_triangles.len()).min(memory.face_normals.len());
+        if index == most {
+            return Err(ModelFault::TooMany { line, part: Part::Triangles, most });
+        }
+        let corners = which.map(|i| self.corners[i]);
+        memory.triangles[index] = corners.map(|c| c.position as u16);
+        memory.uv_triangles[index] = corners.map(|c| c.uv.map_or(NONE, |uv| uv as u16));
+        memory.face_normals[index] =
+            self.corners[0].normal.map_or([0; 3], |normal| memory.normals[normal as usize]);
+        self.totals.triangles += 1;
+        Ok(())
+    }
+
+    /// Whether a quad is cut from its second corner to its fourth: when only that lies inside, or when it is shorter.
+    fn second_diagonal(&self) -> bool {
+        let p = self.corners.map(|c| self.memory.millionths[c.position as usize].map(i64::from));
+        let minus = |a: usize, b: usize| [0, 1, 2].map(|i| p[a][i] - p[b][i]);
+        // 30 bits a difference, so that squares fit.
+        let size = (1..4).flat_map(|i| minus(i, 0)).fold(0, |bits, v| bits | v.unsigned_abs());
+        let drop = (64 - size.leading_zeros()).saturating_sub(29);
+        let minus = |a: usize, b: usize| minus(a, b).map(|v| v >> drop);
+        // Twice Newell's normal of a quad is the product of its diagonals. 20 bits a difference here.
+        let fine = drop.max((64 - size.leading_zeros()).saturating_sub(19)) - drop;
+        let wide = |a, b| minus(a, b).map(|v| i128::from(v >> fine));
+        let cross = |[a, b, c]: [i128; 3], [d, e, f]: [i128; 3]| {
+            [b * f - c * e, c * d - a * f, a * e - b * d]
+        };
+        let n = cross(wide(2, 0), wide(3, 1));
+        let turns = |a, b, c| {
+            let normal = cross(wide(b, a), wide(c, a));
+            (0..3).map(|i| normal[i] * n[i]).sum::<i128>() > 0
+        };
+        let first = turns(0, 1, 2) && turns(0, 2, 3);
+        let second = turns(0, 1, 3) && turns(1, 2, 3);
+        let length = |a, b| minus(a, b).iter().map(|v| i128::from(v * v)).sum::<i128>();
+        match (first, second) {
+            (true, false) => false,
+            (false, true) => true,
+            _ => 1000 * length(1, 3) < 998 * length(0, 2),
+        }
+    }
+
+    fn finish(self) -> Result<Built, ModelFault> {
+        if self.totals.triangles == 0 {
+            return Err(ModelFault::Nothing);
+        }
+        let ends = |i: usize| (i64::from(self.low[i]), i64::from(self.high[i]));
+        // Twice the half side, in millionths.
+        let side = (0..3).map(|i| ends(i).1 - ends(i).0).max().unwrap_or(0);
+        let Totals { positions, triangles, .. } = self.totals;
+        let (from, to) =
+            (&self.memory.millionths[..positions], &mut self.memory.positions[..positions]);
+        for (from, to) in from.iter().zip(to) {
+            *to = core::array::from_fn(|i| {
+                let (low, high) = ends(i);
+                on_grid(2 * i64::from(from[i]) - low - high, side)
+            });
+        }
+        let mut totals = self.totals;
+        if self.textured && self.bare {
+            // Corners without coordinates get (0, 0), as in the PC's loader.
+            let most = self.memory.uvs.len().min(usize::from(NONE));
+            if totals.uvs == most {
+                return Err(ModelFault::TooMany { line: 0, part: Part::TextureCoordinates, most });
+            }
+            self.memory.uvs[totals.uvs] = [0; 2];
+            for corner in self.memory.uv_triangles[..triangles].as_flattened_mut() {
+                if *corner == NONE {
+                    *corner = totals.uvs as u16;
+                }
+            }
+            totals.uvs += 1;
+        }
+        let placement = Placement {
+            scale: if side == 0 {
+                1 << 32
+            } else {
+                // Half the side / 10^6 * 32768 / 32760, Q32.32.
+                ratio(i128::from(side) << 47, 2_000_000 * i128::from(RANGE))
+            },
+            offset: core::array::from_fn(|i| {
+                let (low, high) = ends(i);
+                ratio(i128::from(low + high) << 32, 2_000_000)
+            }),
+        };
+        Ok(Built { totals, placement, flat: self.flat, textured: self.textured })
+    }
+}
+
+/// Nearest, halves upwards.
+fn ratio(numerator: i128, denominator: i128) -> i64 {
+    (2 * numerator + denominator).div_euclid(2 * denominator) as i64
+}
+
+/// `32760 twice / side`, the nearest, halves away from zero.
+fn on_grid(twice: i64, side: i64) -> i16 {
+    if side == 0 {
+        return 0;
+    }
+    let magnitude = (2 * RANGE * twice.abs() + side) / (2 * side);
+    // What no face refers to may lie beyond.
+    let magnitude = magnitude.min(32_767);
+    (if twice < 0 { -magnitude } else { magnitude }) as i16
+}
+
+/// A decimal number in millionths, the nearest; `None` beyond 2,000.
+fn millionths(number: Number) -> Option<i32> {
+    let exponent = number.exponent + 6;
+    let value = match exponent {
+        // More than the clamp below allows, unless the mantissa is 0.
+        10.. => i128::from(number.mantissa) * 10_000_000_000,
+        0.. => i128::from(number.mantissa) * 10i128.pow(exponent as u32),
+        // |mantissa| < 10^18, so this rounds to zero.
+        ..=-20 => 0,
+        _ => {
+            let power = 10i128.pow(exponent.unsigned_abs());
+            (2 * i128::from(number.mantissa) + power).div_euclid(2 * power)
+        }
+    };
+    i32::try_from(value).ok().filter(|v| i64::from(*v).abs() <= FAR)
+}
+
+/// What an [`ObjReader`] left in the memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Built {
+    /// How much of what.
+    pub totals: Totals,
+    placement: Placement,
+    flat: bool,
+    textured: bool,
+}
+
+/// A picture's size, its texels being in the memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Picture {
+    width: u16,
+    height: u16,
+}
+
+impl Built {
+    /// The model in the memory that it was read into.
+    pub fn model<'m>(&self, memory: &'m ModelMemory<'_>, picture: Option<Picture>) -> Model<'m> {
+        let Totals { positions, uvs, triangles, .. } = self.totals;
+        let normals = match self.flat {
+            true => Normals::Face(&memory.face_normals[..triangles]),
+            false => Normals::None,
+        };
+        let (uvs, uv_triangles) = if self.textured { (uvs, triangles) } else { (0, 0) };
+        let mesh = Mesh {
+            positions: &memory.positions[..positions],
+            normals,
+            uvs: &memory.uvs[..uvs],
+            triangles: &memory.triangles[..triangles],
+            uv_triangles: &memory.uv_triangles[..uv_triangles],
+            ..Mesh::default()
+        };
+        let texture = picture
+            .and_then(|p| Texture::new(p.width, p.height, Texels::Rgb565(memory.texels)).ok());
+        Model { mesh, texture, placement: self.placement }
+    }
+}
+
+/// Reads a PPM or PGM file, chunk by chunk.
+#[derive(Debug)]
+pub struct PpmReader<'r> {
+    parser: ppm::Parser,
+    texels: &'r mut [u16],
+    count: usize,
+    size: Option<(u32, u32)>,
+}
+
+/// Why a picture can't be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PpmError {
+    /// Malformed.
+    Syntax(ppm::Error),
+    /// Well-formed, but too large.
+    Model(ModelFault),
+}
+
+impl<'r> PpmReader<'r> {
+    /// A reader before the first byte.
+    pub fn new(texels: &'r mut [u16]) -> Self {
+        PpmReader { parser: ppm::Parser::new(), texels, count: 0, size: None }
+    }
+
+    /// Whether the last texel was read; what follows may stay on the card.
+    pub fn is_done(&self) -> bool {
+        self.parser.is_done()
+    }
+
+    /// Reads a chunk.
+    ///
+    /// # Errors
+    /// The file is malformed or its texels don't fit the memory; feed no more then.
+    pub fn feed(&mut self, chunk: &[u8]) -> Result<(), PpmError> {
+        let PpmReader { parser, texels, count, size } = self;
+        let result = parser.feed(chunk, &mut |event| match event {
+            ppm::Event::Header { width, height } => *size = Some((width, height)),
+            ppm::Event::Texel(rgb) => {
+                if let Some(texel) = texels.get_mut(*count) {
+                    *texel = pack(rgb);
+                }
+                *count += 1;
+            }
+        });
+        self.fits()?;
+        result.map_err(PpmError::Syntax)
+    }
+
+    /// The file ends here.
+    ///
+    /// # Errors
+    /// As [`feed`](Self::feed), or texels are missing.
+    pub fn finish(mut self) -> Result<Picture, PpmError> {
+        let PpmReader { parser, texels, count, .. } = &mut self;
+        let result = parser.finish(&mut |event| {
+            if let (ppm::Event::Texel(rgb), Some(texel)) = (event, texels.get_mut(*count)) {
+                *texel = pack(rgb);
+            }
+        });
+        result.map_err(PpmError::Syntax)?;
+        // Done, so there was a header, which fitted.
+        let (width, height) = self.size.unwrap_or((0, 0));
+        Ok(Picture { width: width as u16, height: height as u16 })
+    }
+
+    fn fits(&self) -> Result<(), PpmError> {
+        match self.size {
+            Some((width, height))
+                if width > 1024
+                    || height > 1024
+                    || (width * height) as usize > self.texels.len() =>
+            {
+                let most = self.texels.len();
+                Err(PpmError::Model(ModelFault::Texture { width, height, most }))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// RGB565, each channel rounded to the nearest, as the PC's loader does.
+fn pack([r, g, b]: [u8; 3]) -> u16 {
+    let scale = |c: u8, most: u16| (u16::from(c) * most + 127) / 255;
+    scale(r, 31) << 11 | scale(g, 63) << 5 | scale(b, 31)
+}

@@ -1,0 +1,323 @@
+//! The loop: start the display and the card, read what is to be shown, show it. A fault is written on the display and on
+//! the serial port; then everything is tried again, or what can go on goes on.
+//!
+//! | fault | what happens |
+//! |---|---|
+//! | the display takes no data | told on the serial port, tried again |
+//! | the card, its files, the model | told on both, tried again from the card's start |
+//! | the display fails while frames run | told on the serial port; it is started again and the frames go on |
+//! | the texture alone can't be had | told on both for a moment; the model is shown without it |
+//!
+//! Once the model is in memory the card is not needed any more: pulling it out changes nothing.
+
+use core::cell::Cell;
+use core::fmt::{self, Write as _};
+use core::ops::ControlFlow;
+
+use scanout::frame::{DrawError, Frame, ObjectState, Primitive, Settings, Store};
+use scanout::transform::Vertex;
+use scanout_display::band::SendError;
+use scanout_display::flush::{self, BlockingInterface};
+use scanout_display::window::Area;
+
+use crate::card::{Card, Cost, Files, with_files};
+use crate::fault::{Fault, name};
+use crate::message::{self, Words};
+use crate::model::{Built, ModelMemory, ObjError, ObjReader, Picture, PpmError, PpmReader, Totals};
+use crate::pair::{self, Buffers, Harts};
+use crate::scene::{self, HEIGHT, WIDTH};
+use crate::show::{self, Show};
+
+/// Where the frame lies on the display.
+pub const AREA: Area = Area::LANDSCAPE;
+
+/// What the loop needs of a board.
+pub trait Board {
+    /// The SD card.
+    type Card: Card;
+    /// The display's bus.
+    type Bus: BlockingInterface<Error: Send> + Send;
+    /// Its harts.
+    type Harts: Harts;
+
+    /// The card and the harts.
+    fn parts(&mut self) -> (&Self::Card, &mut Self::Bus, &Self::Harts);
+
+    /// Starts the display.
+    ///
+    /// # Errors
+    /// What its bus says.
+    fn start_display(&mut self) -> Result<(), <Self::Bus as BlockingInterface>::Error>;
+
+    /// A line on the serial port.
+    fn say(&mut self, line: fmt::Arguments<'_>);
+
+    /// A frame has been sent.
+    fn frame_sent(&mut self, _number: u32) {}
+
+    /// A fault has been told; waits about a second. False: give up, which a machine in a box never does.
+    fn again(&mut self, fault: &Fault) -> bool;
+}
+
+/// Memory for everything but the board's own.
+#[derive(Debug)]
+pub struct Memory<'m> {
+    /// The model.
+    pub model: ModelMemory<'m>,
+    /// Prepared vertices, one a position.
+    pub vertices: &'m mut [Vertex],
+    /// Prepared primitives, one a triangle.
+    pub primitives: &'m mut [Primitive],
+    /// Bands.
+    pub buffers: Buffers<'m>,
+}
+
+/// All memory in one piece, for a static: V positions, normals and texture coordinates, T triangles, X texels,
+/// four bands of B pixels.
+#[derive(Debug)]
+pub struct Storage<const V: usize, const T: usize, const X: usize, const B: usize> {
+    millionths: [[i32; 3]; V],
+    positions: [[i16; 3]; V],
+    normals: [[i16; 3]; V],
+    uvs: [[i32; 2]; V],
+    triangles: [[[u16; 3]; T]; 2],
+    face_normals: [[i16; 3]; T],
+    vertices: [Vertex; V],
+    primitives: [Primitive; T],
+    bands: [[u16; B]; 4],
+    texels: [u16; X],
+}
+
+impl<const V: usize, const T: usize, const X: usize, const B: usize> Storage<V, T, X, B> {
+    /// Bytes without the texels.
+    pub const BYTES: usize = size_of::<Self>() - 2 * X;
+
+    /// Zeros, as a static's initial value: it takes no room in flash and never lies on a stack.
+    #[allow(unsafe_code)]
+    #[allow(clippy::new_without_default)] // a default would be built on the stack
+    pub const fn new() -> Self {
+        // SAFETY: every field is made of integers alone, `Vertex` and `Primitive` too, and 0 is a value of each. A `Primitive`
+        // can't be named here in another way: its fields are the pipeline's own, and its default is no constant.
+        unsafe { core::mem::MaybeUninit::zeroed().assume_init() }
+    }
+
+    /// Lends it.
+    pub fn lend(&mut self) -> Memory<'_> {
+        let [triangles, uv_triangles] = &mut self.triangles;
+        let [front, back, near, far] = &mut self.bands;
+        Memory {
+            model: ModelMemory {
+                millionths: &mut self.millionths,
+                positions: &mut self.positions,
+                normals: &mut self.normals,
+                uvs: &mut self.uvs,
+                triangles,
+                uv_triangles,
+                face_normals: &mut self.face_normals,
+                texels: &mut self.texels,
+            },
+            vertices: &mut self.vertices,
+            primitives: &mut self.primitives,
+            buffers: Buffers { colour: [front, back], depth: [near, far] },
+        }
+    }
+}
+
+/// What was loaded.
+struct Loaded {
+    show: Show,
+    built: Built,
+    picture: Option<Picture>,
+    /// Why there is no texture though one was asked for.
+    excuse: Option<Fault>,
+    bytes: u32,
+}
+
+/// Runs until the frames that were asked for are shown, or [`Board::again`] gives up.
+///
+/// # Errors
+/// The fault that it gave up at.
+pub fn play<B: Board>(board: &mut B, memory: &mut Memory<'_>) -> Result<(), Fault> {
+    let mut display = false;
+    let loaded = loop {
+        if !display {
+            display = board.start_display().is_ok();
+            if !display && !told(board, memory, false, &Fault::Display) {
+                return Err(Fault::Display);
+            }
+            if !display {
+                continue;
+            }
+        }
+        let cost = Cell::new(Cost::default());
+        let (card, ..) = board.parts();
+        match with_files(card, &cost, |files| load(files, &mut memory.model)) {
+            Ok(loaded) => {
+                report(board, &loaded, cost.get());
+                break loaded;
+            }
+            Err(fault) => {
+                if !told(board, memory, true, &fault) {
+                    return Err(fault);
+                }
+                // Whatever is on the display now, it is started afresh: it may have been pulled out, too.
+                display = false;
+            }
+        }
+    };
+    if let Some(excuse) = &loaded.excuse
+        && !told(board, memory, true, excuse)
+    {
+        return Err(excuse.clone());
+    }
+    frames(board, memory, &loaded)
+}
+
+fn report<B: Board>(board: &mut B, loaded: &Loaded, cost: Cost) {
+    let Totals { positions, normals, uvs, triangles } = loaded.built.totals;
+    let Loaded { show, bytes, .. } = loaded;
+    board.say(format_args!(
+        "{}: {positions} v, {uvs} vt, {normals} vn, {triangles} triangles",
+        show.model
+    ));
+    let Cost { sectors, repeated } = cost;
+    board.say(format_args!(
+        "{bytes} bytes of files, {sectors} sectors read, {repeated} of them again"
+    ));
+}
+
+/// Tells a fault on the serial port and, where it works, on the display; then waits.
+fn told<B: Board>(board: &mut B, memory: &mut Memory<'_>, display: bool, fault: &Fault) -> bool {
+    board.say(format_args!("fault: {fault}"));
+    if display {
+        let mut words = Words::new();
+        // What doesn't fit is cut.
+        let _ = write!(words, "{fault}");
+        let (_, bus, _) = board.parts();
+        let colour = &mut *memory.buffers.colour[0];
+        let shown = message::show(bus, AREA, colour, "scanout can't go on:", &words);
+        match shown {
+            Ok(()) => board.frame_sent(0),
+            Err(_) => board.say(format_args!("fault: {}", Fault::Display)),
+        }
+    }
+    board.again(fault)
+}
+
+fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Result<Loaded, Fault> {
+    let mut bytes = 0;
+    let (mut text, mut length) = ([0; 1024], 0);
+    let read = files.read("show.txt", |chunk| {
+        let room = text.get_mut(length..length + chunk.len());
+        let room = room.ok_or(Fault::Show { line: 1, what: "longer than 1024 bytes" })?;
+        room.copy_from_slice(chunk);
+        length += chunk.len();
+        Ok(ControlFlow::Continue(()))
+    });
+    let show = match read {
+        Ok(count) => {
+            bytes += count;
+            Show::parse(&text[..length])?
+        }
+        Err(Fault::Missing(_)) => Show::default(),
+        Err(fault) => return Err(fault),
+    };
+    let path = || name(&show.model);
+    let told = |error| match error {
+        ObjError::Syntax(error) => Fault::Obj(path(), error),
+        ObjError::Model(fault) => Fault::Model(path(), fault),
+    };
+    let mut reader = ObjReader::new(memory);
+    bytes += files.read(&show.model, |chunk| {
+        reader.feed(chunk).map_err(told)?;
+        Ok(ControlFlow::Continue(()))
+    })?;
+    let built = reader.finish().map_err(told)?;
+    let (mut picture, mut excuse) = (None, None);
+    if !show.texture.is_empty() {
+        match texture(files, &show, memory) {
+            Ok((texels, count)) => {
+                picture = Some(texels);
+                bytes += count;
+            }
+            // The card's own faults are tried again; the model does without a picture that is no good.
+            Err(fault @ (Fault::Card { .. } | Fault::Damaged(_))) => return Err(fault),
+            Err(fault) => excuse = Some(fault),
+        }
+    }
+    Ok(Loaded { show, built, picture, excuse, bytes })
+}
+
+fn texture<C: Card>(
+    files: &Files<'_, '_, C>,
+    show: &Show,
+    memory: &mut ModelMemory<'_>,
+) -> Result<(Picture, u32), Fault> {
+    let path = || name(&show.texture);
+    let told = |error| match error {
+        PpmError::Syntax(error) => Fault::Ppm(path(), error),
+        PpmError::Model(fault) => Fault::Model(path(), fault),
+    };
+    let mut reader = PpmReader::new(memory.texels);
+    let bytes = files.read(&show.texture, |chunk| {
+        reader.feed(chunk).map_err(told)?;
+        Ok(if reader.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    })?;
+    Ok((reader.finish().map_err(told)?, bytes))
+}
+
+fn frames<B: Board>(board: &mut B, memory: &mut Memory<'_>, loaded: &Loaded) -> Result<(), Fault> {
+    let Loaded { show, built, picture, .. } = loaded;
+    let harts = show.harts.unwrap_or(show::Harts::Relay);
+    let harts = if <B::Harts as Harts>::TWO { harts } else { show::Harts::One };
+    let mut number = 0;
+    while show.frames == 0 || number < show.frames {
+        let Memory { model, vertices, primitives, buffers } = memory;
+        let model = built.model(model, *picture);
+        let result = scene::with_scene(&model, show.scale, number, |scene| {
+            let mut objects = [ObjectState::default()];
+            let store = Store { vertices, primitives, objects: &mut objects };
+            let frame = Frame::prepare(scene, Settings::new(WIDTH, HEIGHT), store)
+                .map_err(|_| Wrong::Memory)?;
+            let (_, bus, pool) = board.parts();
+            let shown = match harts {
+                show::Harts::Relay => pair::relay(&frame, bus, AREA, buffers, pool),
+                show::Harts::Both => pair::both(&frame, bus, AREA, buffers, pool),
+                show::Harts::One => {
+                    let ([colour, _], [depth, _]) = (&mut buffers.colour, &mut buffers.depth);
+                    flush::show(&frame, bus, AREA, colour, depth, |_| ())
+                }
+            };
+            shown.map_err(|error| match error {
+                DrawError::Sink(SendError::Bus(_)) => Wrong::Display,
+                _ => Wrong::Memory,
+            })
+        });
+        match result {
+            Ok(()) => {
+                board.frame_sent(number + 1);
+                number += 1;
+            }
+            // The same frame again, once the display takes it.
+            Err(Wrong::Display) => loop {
+                if !told(board, memory, false, &Fault::Display) {
+                    return Err(Fault::Display);
+                }
+                if board.start_display().is_ok() {
+                    break;
+                }
+            },
+            Err(Wrong::Memory) => {
+                told(board, memory, true, &Fault::Frame);
+                return Err(Fault::Frame);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Why a frame was not shown.
+enum Wrong {
+    Memory,
+    Display,
+}
