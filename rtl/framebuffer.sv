@@ -14,12 +14,12 @@
 // names the bits that a pixel writes. Pixels beyond the picture are dropped. `scan_pixel` is three clocks behind `scan_x`
 // and `scan_y`, and all zeros until the first picture is finished.
 //
-// The two sides may have different clocks: only two levels cross, each through two registers. `trail` allows clearing behind
-// the beam; it needs rows to be shown in order, each for the last time before the next.
+// The two sides may have different clocks: only two levels cross, each through two registers. Clearing behind the beam relies on
+// rows that are shown in order, each for the last time before the next.
 `default_nettype none
 
 module framebuffer #(
-    parameter     MEMORY      = "BLOCK",
+    parameter int SPRAM       = 0,
     parameter int W_PIXEL     = 1,
     parameter int COLUMNS     = 20,
     parameter int STRIDE_BITS = 5,
@@ -41,7 +41,6 @@ module framebuffer #(
     input  wire logic               scan_rst_n,
     input  wire logic               scan_read,
     input  wire logic               scan_blank,
-    input  wire logic               scan_trail,
     input  wire logic [    W_X-1:0] scan_x,
     input  wire logic [    W_Y-1:0] scan_y,
     output logic      [W_PIXEL-1:0] scan_pixel,
@@ -94,8 +93,10 @@ module framebuffer #(
     logic                      finished;  // the picture behind is complete
     logic                      swapped;  // and has come to the front since
     logic                      cleared;
+    logic                      scanned;  // what is shown is being scanned, or has been
     logic                      started;  // at least one clear picture was handed over
     logic                      shown;
+    logic                      begun;  // the beam is in the picture
     logic                      trailing;
     logic                      clear;
     logic                      target;
@@ -114,7 +115,7 @@ module framebuffer #(
 
     assign finished = drawn_here == granted;
     // A row that the beam has left, in a clock in which nothing is read.
-    assign trailing = scan_trail && !scan_blank && !scan_read && clear_address[W_ADDRESS-1:STRIDE_BITS] < scan_y;
+    assign trailing = begun && !scan_read && clear_address[W_ADDRESS-1:STRIDE_BITS] < scan_y;
     assign clear    = finished && !cleared && (swapped || trailing);
     assign target   = swapped ? !front : front;
 
@@ -130,7 +131,10 @@ module framebuffer #(
             if (clear_address == LAST) cleared <= 1'b1;
         end
         // The memory's power-up content is no picture: what is handed over first needs no blank to hide the swap.
-        if (finished && !swapped && (scan_blank || !started)) begin
+        begun <= !scan_blank && (begun || scan_read);
+        if (begun) scanned <= 1'b1;
+        if (finished && !swapped && ((scan_blank && scanned) || !started)) begin
+            scanned      <= 1'b0;
             swapped      <= 1'b1;
             scan_swapped <= started;
             front        <= !front;
@@ -148,6 +152,7 @@ module framebuffer #(
             front         <= 1'b0;
             started       <= 1'b0;
             shown         <= 1'b0;
+            scanned       <= 1'b0;
             swapped       <= 1'b0;
             cleared       <= 1'b0;
             clear_address <= '0;
@@ -158,7 +163,7 @@ module framebuffer #(
     generate
         for (genvar i = 0; i < 2; i++) begin : g_plane
             plane_memory #(
-                .MEMORY     (MEMORY),
+                .SPRAM      (SPRAM),
                 .W_PIXEL    (W_PIXEL),
                 .COLUMNS    (COLUMNS),
                 .STRIDE_BITS(STRIDE_BITS),

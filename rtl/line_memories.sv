@@ -73,6 +73,7 @@ module line_memories #(
 
     logic                was_blank;
     logic                clearing;
+    logic                started;  // the power-up content has been cleared
     logic                meets;
 
     // The word that is about to be written cannot be read.
@@ -117,15 +118,24 @@ module line_memories #(
             end
         end
         if (draw_done) draw_enable <= 1'b0;
-        if (!rst_n || (scan_blank && !was_blank && !draw_enable)) begin
+        if (scan_blank && !was_blank && !draw_enable) begin
             clearing    <= 1'b1;
+            started     <= 1'b1;
             write       <= '0;
             write_index <= '1;
             used        <= '0;
+            dropped     <= '0;
+        end
+        if (!rst_n) begin
+            // Reset may end too late in a blank, so the first one that begins is waited for.
+            was_blank   <= 1'b1;
+            clearing    <= 1'b0;
+            started     <= 1'b0;
+            write       <= '0;
+            fill        <= 1'b0;
             draw_enable <= 1'b0;
             dropped     <= '0;
         end
-        if (!rst_n) was_blank <= 1'b1;
     end
 
     // Scan stage 0: the memories are read. 1: compared. 2: the highest group.
@@ -167,7 +177,7 @@ module line_memories #(
     always_ff @(posedge clk) begin
         x1         <= scan_x;
         y1         <= scan_y;
-        scan_hit   <= hit != '0;
+        scan_hit   <= started && hit != '0;
         scan_group <= highest;
     end
 endmodule

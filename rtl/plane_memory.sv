@@ -10,12 +10,12 @@
 //
 // Port `draw` writes: the cells of one column, only the planes (bits) that `draw_mask` names. Port `scan` reads `scan_column` of
 // the address, two clocks later, or clears the address in all columns. In a clock with `scan_clear` nothing is read.
-// MEMORY "BLOCK" has a clock for each port; with "SPRAM" (iCE40UP5K, 5 to 8 columns of one bit) both must be the same clock, and
+// Block RAM has a clock for each port; with SPRAM (iCE40UP5K, 5 to 8 columns of one bit) both must be the same clock, and
 // the ports may not be used in the same clock: a picture is either drawn or shown.
 `default_nettype none
 
 module plane_memory #(
-    parameter     MEMORY      = "BLOCK",
+    parameter int SPRAM       = 0,
     parameter int W_PIXEL     = 1,
     parameter int COLUMNS     = 20,
     parameter int STRIDE_BITS = 5,
@@ -39,7 +39,7 @@ module plane_memory #(
     logic [W_COLUMN-1:0]              read_column;
 
     generate
-        if (MEMORY == "SPRAM") begin : g_spram
+        if (SPRAM != 0) begin : g_spram
             logic unused_clk;
             logic unused_mask;
             assign unused_clk  = draw_clk;

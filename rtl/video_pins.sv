@@ -22,6 +22,10 @@ module video_pins #(
     output logic                 hsync,
     output logic                 vsync
 );
+    // The low bits of narrow channels have no pin.
+    logic unused_low;
+    assign unused_low = ^s_rgb;
+
     always_ff @(posedge clk) begin
         r      <= s_active ? s_rgb[23-:W_R] : '0;
         g      <= s_active ? s_rgb[15-:W_G] : '0;

@@ -22,8 +22,8 @@ module video_timing #(
     parameter int V_FRONT    = 10,
     parameter int V_SYNC     = 2,
     parameter int V_BACK     = 33,
-    parameter bit H_POSITIVE = 1'b0,
-    parameter bit V_POSITIVE = 1'b0,
+    parameter int H_POSITIVE = 0,
+    parameter int V_POSITIVE = 0,
     parameter int W_X        = 11,
     parameter int W_Y        = 10
 ) (
@@ -56,21 +56,21 @@ module video_timing #(
             y           <= Y_LAST;
             active      <= 1'b0;
             line_shown  <= 1'b0;
-            hsync       <= !H_POSITIVE;
-            vsync       <= !V_POSITIVE;
+            hsync       <= (H_POSITIVE == 0);
+            vsync       <= (V_POSITIVE == 0);
             blank_start <= 1'b0;
         end else begin
             x           <= x + 1'b1;
             blank_start <= 1'b0;
             if (x == X_SHOWN) active <= 1'b0;
-            if (x == X_SYNC) hsync <= H_POSITIVE;
-            if (x == X_SYNC_END) hsync <= !H_POSITIVE;
+            if (x == X_SYNC) hsync <= (H_POSITIVE != 0);
+            if (x == X_SYNC_END) hsync <= (H_POSITIVE == 0);
             if (x == X_LAST) begin
                 x      <= '0;
                 y      <= y + 1'b1;
                 active <= line_shown;
-                if (y == Y_SYNC) vsync <= V_POSITIVE;
-                if (y == Y_SYNC_END) vsync <= !V_POSITIVE;
+                if (y == Y_SYNC) vsync <= (V_POSITIVE != 0);
+                if (y == Y_SYNC_END) vsync <= (V_POSITIVE == 0);
                 if (y == Y_LAST) begin
                     y          <= '0;
                     active     <= 1'b1;

@@ -11,6 +11,7 @@
 //! Registers begin with random values, as in hardware: what a reset forgets shows.
 
 mod model;
+pub mod monitor;
 mod random;
 mod stream;
 

@@ -144,7 +144,9 @@ impl Model {
             // SAFETY: as in `get`; the word lies within the port.
             unsafe {
                 let word = words.add(bit as usize / 32);
-                word.write((word.read() & !(1 << (bit % 32))) | ((value >> i & 1) as u32) << (bit % 32));
+                word.write(
+                    (word.read() & !(1 << (bit % 32))) | ((value >> i & 1) as u32) << (bit % 32),
+                );
             }
         }
     }

@@ -90,7 +90,8 @@ pub fn exchange(
         model.eval();
         let taken = offered && model.get(source.ready) == 1;
         let valid = model.get(sink.valid) == 1;
-        let now: Option<Vec<u64>> = valid.then(|| sink.data.iter().map(|&p| model.get(p)).collect());
+        let now: Option<Vec<u64>> =
+            valid.then(|| sink.data.iter().map(|&p| model.get(p)).collect());
         assert!(pending.is_none() || pending == now, "a word was taken back or changed");
         pending = now.clone().filter(|_| !ready);
         quiet += 1;
