@@ -75,9 +75,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![no_std]
-// `unsafe` is in one place, the loads and stores of `lanes::sse2`, each beside its reason.
+// `unsafe` is in two places, `lanes::sse2` and `avx2`, each beside its reason.
 #![deny(unsafe_code)]
 
+mod avx2;
 pub mod camera;
 pub mod clip;
 pub mod cull;

@@ -82,8 +82,9 @@ pub struct Viewport {
     half: [i64; 2],
 }
 
-/// A vertex on the screen, as kept for the frame.
+/// A vertex on the screen, as kept for the frame: five words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[repr(C)]
 pub struct Vertex {
     /// Column, Q28.4.
     pub x: i32,
@@ -111,6 +112,11 @@ impl Viewport {
     /// The viewport of a frame, each side at most 4096 pixels.
     pub fn new(width: u16, height: u16) -> Viewport {
         Viewport { half: [width as i64 * 8, height as i64 * 8] }
+    }
+
+    /// Half the width and height, in 1/16 pixel.
+    pub fn half(&self) -> [i64; 2] {
+        self.half
     }
 
     /// Which planes of the view volume need the clip stage for this vertex.

@@ -7,6 +7,7 @@ use common::{Memory, Picture, camera, draw, material, object, scene, sphere};
 use scanout::camera::{Camera, projection};
 use scanout::frame::{Frame, Needed, Settings, Traversal};
 use scanout::math::{Angle, Mat4, Q16, Vec3};
+use scanout::mesh::{Mesh, Normals};
 use scanout::output::{Mono, PixelFormat, Rgb332, Rgb565, Rgb888};
 use scanout::scene::{Background, Fog, Mode, Object, Scene};
 use scanout::texture::{Filter, Texels, Texture, Wrap};
@@ -20,7 +21,7 @@ fn check<F: PixelFormat>(name: &str, scene: &Scene) {
     for dither in [false, true] {
         let settings = Settings { dither, ..SIZE };
         let whole: Picture<F> = draw(scene, settings, SIZE.height, false);
-        for traversal in [Traversal::Spans, Traversal::Tiles] {
+        for traversal in [Traversal::Spans, Traversal::Baseline, Traversal::Tiles] {
             for (lines, backwards) in [(1, false), (7, false), (7, true), (SIZE.height, true)] {
                 let other: Picture<F> =
                     draw(scene, Settings { traversal, ..settings }, lines, backwards);
@@ -139,6 +140,93 @@ fn eight_at_a_time_is_one_at_a_time() {
             }
         }
     }
+}
+
+/// Clouds of small triangles of all shapes, whose textures repeat within them, are drawn the same whatever the processor offers.
+#[test]
+fn clouds_of_small_triangles() {
+    let mut seed = 9u64;
+    let mut random = |n: u32| {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (((seed >> 32) * n as u64) >> 32) as i32
+    };
+    let texels: Vec<u16> = (0..64 * 64).map(|i| (i * 40503) as u16).collect();
+    let mut drawn = 0;
+    for case in 0..60 {
+        let size = [(1, 1), (2, 1), (3, 2), (7, 5), (64, 64)][case % 5];
+        let texture = Texture::new(size.0, size.1, Texels::Rgb565(&texels)).unwrap();
+        let reach = [300, 1500, 6000, 30_000][case % 4];
+        // Along the line of sight, so that 1/w varies a hundredfold within a triangle.
+        let needles = case % 4 == 2 && case % 3 != 0;
+        let mut positions = Vec::new();
+        for _ in 0..400 {
+            let centre = [(); 3].map(|()| random(50_000) - 25_000);
+            for _ in 0..3 {
+                let mut at = |c: i32| (c + random(2 * reach) - reach as i32).clamp(-32768, 32767);
+                let mut position = centre.map(|c| at(c) as i16);
+                if needles {
+                    let near = random(3) == 0;
+                    let narrow = if near { 2000 } else { 10 };
+                    position = [position[0] / narrow, position[1] / narrow, position[2]];
+                    if near {
+                        position[2] = (32767 - random(60)) as i16;
+                    }
+                }
+                positions.push(position);
+            }
+        }
+        let spread = [1 << 14, 1 << 16, 5 << 16][case % 3];
+        let uvs: Vec<[i32; 2]> = positions
+            .iter()
+            .map(|_| [(); 2].map(|()| random(2 * spread) - spread as i32))
+            .collect();
+        let colours: Vec<[u8; 3]> =
+            positions.iter().map(|_| [(); 3].map(|()| random(256) as u8)).collect();
+        let normals = vec![[0, 0, 1 << 14]; positions.len()];
+        let triangles: Vec<[u16; 3]> = (0..400).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let mesh = Mesh {
+            positions: &positions,
+            normals: Normals::Vertex(&normals),
+            colours: &colours,
+            uvs: &uvs,
+            triangles: &triangles,
+            uv_triangles: &triangles,
+            ..Mesh::default()
+        };
+        let mut m = material();
+        (m.two_sided, m.ambient) = (case % 2 == 0, Q16::ONE);
+        m.texture = (case % 7 < 5).then_some(&texture);
+        // Near enough that some must be clipped, and 1/w varies much within a triangle.
+        let lens = projection::perspective(
+            Angle::from_degrees(Q16::from_int(90)),
+            Q16::from_ratio(4, 3),
+            Q16::from_f64(if case % 4 < 2 { 0.3 } else { 0.001 }),
+            Q16::from_int(10),
+        )
+        .unwrap();
+        let eye = Vec3::from_f64([0.0, 0.0, if case % 3 == 0 { 0.2 } else { 1.001 }]);
+        let camera = Camera::look_at(eye, Vec3::from_f64([0.0, 0.0, -5.0]), Vec3::Y, lens).unwrap();
+        for mode in [Mode::Flat, Mode::Gouraud] {
+            let objects = [object(&mesh, &m, mode)];
+            let scene = scene(camera, &objects);
+            let whole: Picture<Rgb565> = draw(&scene, SIZE, 120, false);
+            drawn += whole.depth.iter().filter(|&&z| z != u16::MAX).count();
+            for (traversal, lines) in [
+                (Traversal::Spans, 9),
+                (Traversal::Baseline, 120),
+                (Traversal::Baseline, 1),
+                (Traversal::Tiles, 120),
+            ] {
+                let settings = Settings { traversal, ..SIZE };
+                let other: Picture<Rgb565> = draw(&scene, settings, lines, false);
+                assert!(whole == other, "cloud {case}, {mode:?}, {traversal:?}, {lines} lines");
+            }
+            let slow: Picture<Rgb888> = draw(&scene, SIZE, 120, false);
+            let encoded: Vec<u16> = slow.colour.iter().map(|&c| Rgb565::encode(c)).collect();
+            assert!(whole.colour == encoded && whole.depth == slow.depth, "cloud {case}, {mode:?}");
+        }
+    }
+    assert!(drawn > 120 * 2000, "{drawn} pixels");
 }
 
 /// Several threads draw bands of one prepared frame.

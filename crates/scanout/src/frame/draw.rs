@@ -6,6 +6,7 @@ use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
 use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
+use crate::avx2::{EIGHT, Source, Triangles};
 use crate::clip::{self, Corner};
 use crate::depth;
 use crate::interpolate::Plane;
@@ -50,14 +51,97 @@ impl<'a> Frame<'a> {
         };
         target.clear(&self.scene.background);
         let mut lights = None;
-        for primitive in self.primitives {
-            if (primitive.top as i32) < target.rows.end
-                && primitive.bottom as i32 > target.rows.start
-            {
-                self.draw_primitive(primitive, &mut lights, &mut target);
+        let mut rest = self.primitives;
+        while let Some(first) = rest.first() {
+            let same = |p: &&Primitive| p.object == first.object;
+            let (run, others) = rest.split_at(rest.iter().take_while(same).count());
+            rest = others;
+            match self.source(first.object, &target) {
+                Some(source) if target.pixels().is_some() => {
+                    self.draw_groups(&source, run, &mut lights, &mut target);
+                }
+                _ => {
+                    let rows = target.rows.clone();
+                    for primitive in run.iter().filter(|p| p.touches(&rows)) {
+                        self.draw_primitive(primitive, &mut lights, &mut target);
+                    }
+                }
             }
         }
         Ok(())
+    }
+
+    /// What eight triangles at a time are made from, for objects that can be drawn so.
+    fn source<F: PixelFormat>(&self, object: u16, target: &Target<F>) -> Option<Source<'a>> {
+        let first_vertex = self.objects[object as usize].first_vertex as usize;
+        let object = &self.scene.objects[object as usize];
+        let mesh = object.mesh;
+        let gouraud = match (object.mode, mesh.normals) {
+            (Mode::Gouraud, Normals::Vertex(_)) => true,
+            (Mode::Flat | Mode::Gouraud, _) => false,
+            _ => return None,
+        };
+        let textured = object.material.texture.filter(|_| !mesh.uv_triangles.is_empty());
+        let texture = textured.and_then(Repeat565::new);
+        if self.fog.is_some() || textured.is_some() != texture.is_some() {
+            return None;
+        }
+        Some(Source {
+            triangles: mesh.triangles,
+            vertices: &self.vertices[first_vertex..first_vertex + mesh.positions.len()],
+            uv_triangles: mesh.uv_triangles,
+            uvs: mesh.uvs,
+            texture,
+            gouraud,
+            rows: (target.rows.start, target.rows.end),
+            width: target.width as i32,
+        })
+    }
+
+    /// Draws primitives of one object in groups of eight.
+    fn draw_groups<F: PixelFormat>(
+        &self,
+        source: &Source,
+        run: &[Primitive],
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+    ) {
+        let rows = target.rows.clone();
+        let mut touching = run.iter().filter(|p| p.touches(&rows));
+        let mut triangles = Triangles::default();
+        loop {
+            // What is not of the plain kind, and what fills up the last group, is not ready.
+            let mut group = [&Primitive::EMPTY; EIGHT];
+            let (mut count, mut plain) = (0, 0u32);
+            for (slot, primitive) in group.iter_mut().zip(&mut touching) {
+                *slot = primitive;
+                let is_plain =
+                    primitive.tag == Primitive::PLAIN || (primitive.tag == BACK && !source.gouraud);
+                plain |= (is_plain as u32) << count;
+                count += 1;
+            }
+            if count == 0 {
+                return;
+            }
+            let Some((avx2, _)) = target.pixels() else { return };
+            avx2.set_up(source, &group.map(|p| p.index), &mut triangles);
+            let ready = triangles.ready & plain;
+            let flat = group.map(|p| p.rgb);
+            let mut next = 0;
+            while next < count {
+                let end = next + (!(ready >> next)).trailing_zeros() as usize;
+                if end > next
+                    && let Some((avx2, mut pixels)) = target.pixels()
+                {
+                    avx2.draw(source, &triangles, next..end.min(count), &flat, &mut pixels);
+                }
+                next = end;
+                if next < count {
+                    self.draw_primitive(group[next], lights, target);
+                    next += 1;
+                }
+            }
+        }
     }
 
     /// Draws the frame from the top in bands of `lines` lines and hands each to `sink`.

@@ -26,6 +26,7 @@ mod prepare;
 mod target;
 
 use core::fmt;
+use core::ops::Range;
 
 use crate::hash::FrameHash;
 use crate::output::PixelFormat;
@@ -40,9 +41,11 @@ pub const MAX_SIDE: u16 = 4096;
 /// How triangles are walked. It cannot change a pixel; it exists to prove that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Traversal {
-    /// Row by row.
+    /// Row by row, with all that the processor has.
     #[default]
     Spans,
+    /// Row by row, with nothing that the processor must be asked for: on x86-64, SSE2 and no more.
+    Baseline,
     /// Tile by tile, 8 x 8 pixels.
     Tiles,
 }
@@ -124,6 +127,18 @@ const CLIPPED: u8 = 1 << 2;
 const BACK: u8 = 1 << 3;
 
 impl Primitive {
+    /// A triangle that is neither clipped nor seen from behind.
+    const PLAIN: u8 = 0;
+    /// In place of none.
+    const EMPTY: Primitive =
+        Primitive { index: 0, top: 0, bottom: 0, object: 0, rgb: [0; 3], tag: Primitive::PLAIN };
+
+    /// Whether it may touch some rows.
+    #[inline]
+    fn touches(&self, rows: &Range<i32>) -> bool {
+        (self.top as i32) < rows.end && self.bottom as i32 > rows.start
+    }
+
     fn kind(&self) -> Kind {
         match self.tag & 3 {
             0 => Kind::Triangle,

@@ -1,9 +1,12 @@
 //! Preparing: transform and light every vertex once, list what can be seen.
 
+use core::ops::Range;
+
 use super::{
     BACK, CLIPPED, Frame, Kind, MAX_SIDE, Needed, ObjectState, PrepareError, Primitive, Settings,
 };
-use super::{Stats, Store, UNSEEN};
+use super::{Stats, Store, Traversal, UNSEEN};
+use crate::avx2::{Avx2, EIGHT, Seen};
 use crate::clip::{self, Corner};
 use crate::cull::{Facing, facing, facing_in_clip_space, sphere_outside};
 use crate::light::{Lighting, MAX_LIGHTS};
@@ -66,6 +69,7 @@ impl<'a> Frame<'a> {
             return Err(PrepareError::Store { needed: Needed::at_most(scene), given });
         }
         let Store { vertices, primitives, objects } = store;
+        let avx2 = if settings.traversal == Traversal::Spans { Avx2::detect() } else { None };
         let world_to_clip = scene.camera.projection.mul(&scene.camera.view);
         let mut list = List { primitives, len: 0, stats: Stats::default() };
         let mut vertices_needed = 0;
@@ -98,6 +102,7 @@ impl<'a> Frame<'a> {
                 object,
                 index,
                 clip: &state.clip,
+                avx2,
             }
             .run(own, &mut list)?;
         }
@@ -196,6 +201,7 @@ struct ObjectPass<'a> {
     object: &'a Object<'a>,
     index: usize,
     clip: &'a ClipMatrix,
+    avx2: Option<Avx2>,
 }
 
 impl ObjectPass<'_> {
@@ -222,9 +228,13 @@ impl ObjectPass<'_> {
     /// Transform: positions to screen vertices.
     fn transform(&self, vertices: &mut [Vertex]) {
         let mesh = self.object.mesh;
-        for (vertex, &position) in vertices.iter_mut().zip(mesh.positions) {
-            *vertex = self.viewport.project(&self.clip.apply(position));
-            vertex.rgb = self.object.material.colour;
+        let rgb = self.object.material.colour;
+        if let Some(avx2) = self.avx2 {
+            avx2.project(&self.viewport, self.clip, mesh.positions, rgb, vertices);
+        } else {
+            for (vertex, &position) in vertices.iter_mut().zip(mesh.positions) {
+                *vertex = Vertex { rgb, ..self.viewport.project(&self.clip.apply(position)) };
+            }
         }
         for (vertex, &colour) in vertices.iter_mut().zip(mesh.colours) {
             vertex.rgb = modulate(colour, self.object.material.colour);
@@ -252,7 +262,7 @@ impl ObjectPass<'_> {
         }
     }
 
-    /// Cull: triangles that can be seen. Most are dropped here, so this loop holds nothing but the tests.
+    /// Cull: triangles that can be seen.
     fn triangles(
         &self,
         vertices: &mut [Vertex],
@@ -260,11 +270,56 @@ impl ObjectPass<'_> {
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
-        let mesh = self.object.mesh;
+        let triangles = self.object.mesh.triangles;
+        list.stats.triangles += triangles.len() as u32;
+        let Some(avx2) = self.avx2 else {
+            return self.one_by_one(0..triangles.len(), vertices, lighting, kind, list);
+        };
+        let one_sided = !self.object.material.two_sided;
+        let lit_later = self.vertex_normals().is_some();
+        let size = [self.settings.width as i32, self.settings.height as i32];
+        let (groups, _) = triangles.as_chunks::<EIGHT>();
+        let (mut next, mut seen) = (0, Seen::default());
+        while next < groups.len() {
+            let found = avx2.facing(&groups[next..], vertices, size, one_sided, &mut seen);
+            list.stats.back_facing += seen.turned;
+            list.stats.outside += seen.outside;
+            let Some(passed) = found else { break };
+            let first = (next + passed) * EIGHT;
+            next += passed + 1;
+            if !seen.plain {
+                self.one_by_one(first..first + EIGHT, vertices, lighting, kind, list)?;
+                continue;
+            }
+            let mut rest = seen.kept;
+            while rest != 0 {
+                let k = rest.trailing_zeros() as usize & (EIGHT - 1);
+                rest &= rest - 1;
+                let rows = (seen.top[k] as i16, seen.bottom[k] as i16);
+                let facing = if seen.back >> k & 1 == 0 { Facing::Front } else { Facing::Back };
+                self.keep(first + k, kind as u8, rows, facing, lighting, list)?;
+                if lit_later {
+                    mark(vertices, triangles[first + k]);
+                }
+            }
+        }
+        self.one_by_one(groups.len() * EIGHT..triangles.len(), vertices, lighting, kind, list)
+    }
+
+    /// The same, one after another. Most are dropped here, so this loop holds nothing but the tests.
+    #[inline(never)]
+    fn one_by_one(
+        &self,
+        range: Range<usize>,
+        vertices: &mut [Vertex],
+        lighting: &Lighting,
+        kind: Kind,
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
         let one_sided = !self.object.material.two_sided;
         let lit_later = self.vertex_normals().is_some();
         let mut back_facing = 0;
-        for (i, &triangle) in mesh.triangles.iter().enumerate() {
+        for (i, &triangle) in range.clone().zip(&self.object.mesh.triangles[range]) {
             let [a, b, c] = triangle.map(usize::from);
             let (Some(a), Some(b), Some(c)) = (vertices.get(a), vertices.get(b), vertices.get(c))
             else {
@@ -294,7 +349,6 @@ impl ObjectPass<'_> {
                 None => list.stats.outside += 1,
             }
         }
-        list.stats.triangles += mesh.triangles.len() as u32;
         list.stats.back_facing += back_facing;
         Ok(())
     }

@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use super::Traversal;
 use super::fragment::Shader;
+use crate::avx2::{Avx2, EIGHT, Pixels};
 use crate::depth;
 use crate::interpolate::Plane;
 use crate::lanes::{self, LANES, U16x8, U32x8};
@@ -94,8 +95,27 @@ impl<F: PixelFormat> Target<'_, F> {
         ClipRect { x0: 0, y0: self.rows.start, x1: self.width as i32, y1: self.rows.end }
     }
 
+    /// The token for AVX2, where this target may be drawn with it.
+    fn avx2(&self) -> Option<Avx2> {
+        if self.traversal == Traversal::Spans { Avx2::detect() } else { None }
+    }
+
+    /// The memory as RGB565 without dither, at least eight pixels wide, for AVX2; `None` where it is not.
+    pub(super) fn pixels(&mut self) -> Option<(Avx2, Pixels<'_>)> {
+        let avx2 = self.avx2().filter(|_| !self.dither && self.width >= EIGHT)?;
+        let (width, top) = (self.width, self.rows.start);
+        let colours = F::rgb565(self.colour)?;
+        Some((avx2, Pixels { colours, depths: self.depth, width, top }))
+    }
+
     pub(super) fn clear(&mut self, background: &Background) {
-        self.depth.fill(depth::FAR);
+        match self.avx2() {
+            Some(avx2) => avx2.fill(self.depth, depth::FAR),
+            None => self.depth.fill(depth::FAR),
+        }
+        if let (Background::Colour(rgb), Some((avx2, pixels))) = (background, self.pixels()) {
+            return avx2.fill(pixels.colours, Rgb565::encode(*rgb));
+        }
         let (width, dither) = (self.width, self.dither);
         for y in self.rows.clone() {
             let (row, _) = self.row(y);
@@ -124,7 +144,9 @@ impl<F: PixelFormat> Target<'_, F> {
     fn runs(&mut self, t: &Triangle, mut batch: impl FnMut(&mut Self, &[Run])) {
         let (rows, width) = (self.rows.clone(), self.width as i32);
         match self.traversal {
-            Traversal::Spans => spans(t, rows, width, &mut |runs| batch(self, runs)),
+            Traversal::Spans | Traversal::Baseline => {
+                spans(t, rows, width, &mut |runs| batch(self, runs))
+            }
             Traversal::Tiles => tiles(t, rows, width, &mut |runs| batch(self, runs)),
         }
     }
@@ -134,7 +156,7 @@ impl<F: PixelFormat> Target<'_, F> {
         if self.dither {
             self.runs(t, |target, runs| target.fill_runs::<S, true>(z, shader, runs));
         } else if lanes::AVAILABLE && S::SIDE_BY_SIDE && F::rgb565(&mut []).is_some() {
-            if self.traversal == Traversal::Spans && self.width >= LANES && t.is_tiny() {
+            if self.traversal != Traversal::Tiles && self.width >= LANES && t.is_tiny() {
                 return self.fill_strips(t, z, shader);
             }
             self.runs(t, |target, runs| target.fill_side_by_side(z, shader, runs));

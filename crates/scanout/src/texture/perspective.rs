@@ -126,8 +126,8 @@ impl Sampler for General {
 /// Nearest texels of an RGB565 texture that repeats and has one level, any size.
 #[derive(Clone, Copy, Debug)]
 pub struct Repeat565<'a> {
-    texels: &'a [u16],
-    size: [u64; 2],
+    pub(crate) texels: &'a [u16],
+    pub(crate) size: [u64; 2],
 }
 
 impl<'a> Repeat565<'a> {
@@ -140,21 +140,26 @@ impl<'a> Repeat565<'a> {
         let size = [texture.width, texture.height].map(u64::from);
         plain.then_some(Repeat565 { texels, size })
     }
+
+    /// The texel as it is stored, from the shifts of a [`TextureSetup`].
+    #[inline(always)]
+    pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
+        let [x, y] = [0, 1].map(|i| {
+            let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift[i] - 1));
+            let texel = product >> (shift[i] + SUBTEXEL_BITS);
+            // Whole repeats are taken off at setup: few triangles reach into the next one.
+            if texel < self.size[i] { texel } else { texel % self.size[i] }
+        });
+        let index = (y * self.size[0] + x) as usize;
+        self.texels.get(index).copied().unwrap_or(0)
+    }
 }
 
 impl Sampler for Repeat565<'_> {
     const RGB565: bool = true;
     #[inline(always)]
     fn texel565(&self, setup: &TextureSetup, st: [u32; 2], r: u64) -> u16 {
-        let [x, y] = [0, 1].map(|i| {
-            let shift = setup.shift[i];
-            let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift - 1));
-            let texel = product >> (shift + SUBTEXEL_BITS);
-            // Whole repeats are taken off at setup: few triangles reach into the next one.
-            if texel < self.size[i] { texel } else { texel % self.size[i] }
-        });
-        let index = (y * self.size[0] + x) as usize;
-        self.texels.get(index).copied().unwrap_or(0)
+        self.at(setup.shift, st, r)
     }
     #[inline(always)]
     fn texel(&self, setup: &TextureSetup, st: [u32; 2], _q: u32, r: u64) -> [u8; 3] {

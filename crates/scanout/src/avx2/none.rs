@@ -1,0 +1,50 @@
+//! No AVX2: the token does not exist, so nothing of this is ever called.
+
+use super::{EIGHT, Lanes, Pixels, Seen, Source, Triangles};
+use crate::transform::{ClipMatrix, Vertex, Viewport};
+
+/// Cannot be had here.
+#[derive(Clone, Copy, Debug)]
+pub enum Avx2 {}
+
+impl Avx2 {
+    /// There is none.
+    #[inline(always)]
+    pub fn detect() -> Option<Avx2> {
+        None
+    }
+    /// Not reached.
+    pub fn project(
+        self,
+        _: &Viewport,
+        _: &ClipMatrix,
+        _: &[[i16; 3]],
+        _: [u8; 3],
+        _: &mut [Vertex],
+    ) {
+        match self {}
+    }
+    /// Not reached.
+    pub fn facing(
+        self,
+        _: &[[[u16; 3]; EIGHT]],
+        _: &[Vertex],
+        _: [i32; 2],
+        _: bool,
+        _: &mut Seen,
+    ) -> Option<usize> {
+        match self {}
+    }
+    /// Not reached.
+    pub fn set_up(self, _: &Source, _: &[u32; EIGHT], _: &mut Triangles) {
+        match self {}
+    }
+    /// Not reached.
+    pub fn draw(self, _: &Source, _: &Triangles, _: Lanes, _: &[[u8; 3]; EIGHT], _: &mut Pixels) {
+        match self {}
+    }
+    /// Not reached.
+    pub fn fill(self, _: &mut [u16], _: u16) {
+        match self {}
+    }
+}
