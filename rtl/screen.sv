@@ -168,14 +168,13 @@ module screen #(
         end else begin : g_framebuffer
             // A cell: whether it is drawn, and its colour.
             localparam int W_CELL = WAY == 0 ? 1 : 1 + W_COLOUR;
-            logic [W_CELL-1:0]           cell_drawn;
-            logic [EYES-1:0][W_CELL-1:0] cells;
-            logic [EYES-1:0][W_CELL-1:0] mask;
-            logic                        swapped;
+            logic [     W_CELL-1:0] cell_drawn;
+            logic [EYES*W_CELL-1:0] cells;  // the right eye's in the high half
+            logic [EYES*W_CELL-1:0] mask;
+            logic                   swapped;
 
-            always_comb begin
-                mask = '0;
-                for (int e = 0; e < EYES; e++) if (STEREO == 0 || s_right == 1'(e)) mask[e] = '1;
+            for (genvar e = 0; e < EYES; e++) begin : g_mask
+                assign mask[W_CELL*e+:W_CELL] = {W_CELL{STEREO == 0 || s_right == 1'(e)}};
             end
 
             framebuffer #(
@@ -209,7 +208,7 @@ module screen #(
             if (WAY == 0) begin : g_ink
                 logic unused;
                 assign cell_drawn = 1'b1;
-                assign set        = {cells[EYES-1][0], cells[0][0]};
+                assign set        = {cells[EYES-1], cells[0]};
                 assign rgb        = {2{ink}};
                 assign unused     = ^{s_rgb, s_steep, s_group, palette, s_right, swapped};
             end else begin : g_colour
@@ -229,10 +228,10 @@ module screen #(
                     widen_format #(
                         .FORMAT(FORMAT)
                     ) i_widen (
-                        .s_pixel(cells[e%EYES][W_COLOUR-1:0]),
+                        .s_pixel(cells[W_CELL*(e%EYES)+:W_COLOUR]),
                         .m_rgb  (rgb[24*e+:24])
                     );
-                    assign set[e] = cells[e%EYES][W_COLOUR];
+                    assign set[e] = cells[W_CELL*(e%EYES)+W_COLOUR];
                 end
                 assign unused = ^{s_steep, s_group, palette, s_right, ink, swapped};
             end

@@ -14,6 +14,7 @@ mod model;
 pub mod monitor;
 mod random;
 mod stream;
+pub mod tmds;
 
 pub use model::{Model, Port};
 pub use random::Random;
