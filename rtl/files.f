@@ -13,6 +13,7 @@ overlay.sv
 plane_memory.sv
 plane_memory_block.sv
 plane_memory_spram.sv
+project.sv
 scan_out.sv
 screen.sv
 stereo_mix.sv
@@ -20,6 +21,7 @@ stereo_place.sv
 synchronise.sv
 tmds_encode.sv
 tmds_serialise.sv
+transform.sv
 video_pins.sv
 video_timing.sv
 widen_format.sv
