@@ -1,0 +1,110 @@
+//! `line_clipped.sv` and the library's clipped walk; `muldiv.sv` and a division.
+
+use scanout::raster::line::{ClipRect, LineEnd, walk_with};
+use scanout_cosim::{Model, Random, Stalls, Stream, exchange};
+
+fn count(usual: usize) -> usize {
+    if std::env::var_os("SCANOUT_SHORT").is_some_and(|v| !v.is_empty()) {
+        usual / 20
+    } else {
+        usual
+    }
+}
+
+#[test]
+fn a_product_divided() {
+    let mut model = Model::new("muldiv");
+    model.reset();
+    let [start, busy, b, n, d, q, r] =
+        ["start", "busy", "b", "n", "d", "q", "r"].map(|name| model.port(name));
+    let mut random = Random::new(1);
+    for i in 0..count(4000) {
+        let bits = random.range(1, 14);
+        let divisor = random.range(1, (1 << bits) - 1).max(1) as u64;
+        let factor = match i % 4 {
+            0 => 0,
+            1 => divisor,
+            _ => random.below(divisor + 1),
+        };
+        let other = random.below(1 << 12);
+        model.set(b, other);
+        model.set(n, factor);
+        model.set(d, divisor);
+        model.set(start, 1);
+        model.clock();
+        model.set(start, 0);
+        let begin = model.clocks();
+        while model.get(busy) == 1 {
+            model.clock();
+            assert!(model.clocks() - begin <= 3 * 12, "{other} {factor} / {divisor}: no end");
+        }
+        let product = other * factor;
+        assert_eq!(
+            (model.get(q), model.get(r)),
+            (product / divisor, product % divisor),
+            "{other} {factor} / {divisor}"
+        );
+    }
+}
+
+fn end(x: i64, y: i64) -> LineEnd {
+    LineEnd { x: x as i32, y: y as i32, ..LineEnd::default() }
+}
+
+/// Columns and rows: 23 bits with a sign.
+const FARTHEST: i64 = (1 << 22) - 1;
+
+fn random_line(random: &mut Random, [width, height]: [i64; 2]) -> [LineEnd; 2] {
+    let reach = [0, 3, 20, 700, 40_000, FARTHEST][random.below(6) as usize];
+    let mut place = |size: i64| {
+        let v = match random.below(8) {
+            // On the border and just beside it.
+            0 => random.range(-1, 1),
+            1 => size - 1 + random.range(-1, 1),
+            _ => random.range(-reach, size - 1 + reach),
+        };
+        v.clamp(-FARTHEST - 1, FARTHEST)
+    };
+    [end(place(width), place(height)), end(place(width), place(height))]
+}
+
+#[test]
+fn visible_pixels_never_move() {
+    let mut model = Model::new("line_clipped");
+    model.reset();
+    let source = Stream::new(&model, "s", &["a_x", "a_y", "b_x", "b_y"]);
+    let sink = Stream::new(&model, "m", &["x", "y", "last"]);
+    let (width_port, height_port) = (model.port("width"), model.port("height"));
+    let mut random = Random::new(9);
+    for (round, size) in
+        [[640, 480], [320, 240], [1024, 1024], [1, 1], [5, 3], [7, 1000]].into_iter().enumerate()
+    {
+        // The last line may still be on its way to vanishing.
+        let busy = model.port("busy");
+        while model.get(busy) == 1 {
+            model.clock();
+        }
+        model.set(width_port, size[0]);
+        model.set(height_port, size[1]);
+        let clip = ClipRect { x0: 0, y0: 0, x1: size[0] as i32, y1: size[1] as i32 };
+        let lines: Vec<_> = (0..count(4000)).map(|_| random_line(&mut random, size)).collect();
+        let mut expected = Vec::new();
+        let mut cut = 0;
+        for [a, b] in &lines {
+            let before = expected.len();
+            walk_with::<false, false>(a, b, clip, |x, y, _, _| {
+                expected.push(vec![x as u64, y as u64, 0]);
+            });
+            if expected.len() > before {
+                expected.last_mut().expect("not empty")[2] = 1;
+                cut += u32::from(!clip.contains(a.x, a.y) || !clip.contains(b.x, b.y));
+            }
+        }
+        assert!(cut > count(100) as u32, "only {cut} lines cross the border");
+        let words: Vec<Vec<u64>> =
+            lines.iter().map(|[a, b]| [a.x, a.y, b.x, b.y].map(|v| v as u64).to_vec()).collect();
+        let stalls = Stalls { source: 20 * (round as u64 % 2), sink: 30 * (round as u64 / 2 % 2) };
+        let got = exchange(&mut model, &source, &words, &sink, expected.len(), stalls, &mut random);
+        assert!(got.received == expected, "{size:?}: pixels differ");
+    }
+}
