@@ -13,6 +13,8 @@
 mod model;
 pub mod monitor;
 mod random;
+pub mod register_map;
+pub mod registers;
 mod stream;
 pub mod tmds;
 
