@@ -4,11 +4,11 @@
 //!
 //! ```text
 //!        L | R          at each corner of pixels, look at the two pixels ahead:
-//!       ---v---         R light: turn right;  R dark, L light: straight on;  both dark: turn left
+//!       ---v---         L dark: turn left;  L light, R dark: straight on;  both light: turn right
 //!          ^
 //! ```
 //!
-//! So dark pixels that touch by a corner only are apart (4-connected). Each crack with light on its left and dark on its right
+//! So dark pixels that touch by a corner are together (8-connected): the border of a small, slanted marker holds. Each crack with light on its left and dark on its right
 //! side belongs to one outline; a bit a pixel remembers those that were passed. Outlines around dark areas have positive area,
 //! those around holes negative.
 //!
@@ -104,10 +104,10 @@ impl Dark<'_> {
             at = (at.0 + STEP[direction].0, at.1 + STEP[direction].1);
             let ahead =
                 |side: [(i32, i32); 4]| self.at(at.0 + side[direction].0, at.1 + side[direction].1);
-            if !ahead(RIGHT) {
-                direction = (direction + 1) % 4;
-            } else if ahead(LEFT) {
+            if ahead(LEFT) {
                 direction = (direction + 3) % 4;
+            } else if !ahead(RIGHT) {
+                direction = (direction + 1) % 4;
             }
             if at == start && direction == 0 {
                 return Outline { length, area };
@@ -149,9 +149,10 @@ mod tests {
             outlines("....... .#####. .#...#. .#.#.#. .#...#. .#####. ......."),
             [(20, 25), (4, 1)]
         );
-        // By a corner: two areas.
-        assert_eq!(outlines(".... .#.. ..#. ...."), [(4, 1), (4, 1)]);
+        // By a corner: one area.
+        assert_eq!(outlines(".... .#.. ..#. ...."), [(8, 2)]);
         assert_eq!(outlines("..... .#.#. .###. ....."), [(12, 5)]);
+        assert_eq!(outlines("..... .#... ...#. ....."), [(4, 1), (4, 1)]);
     }
 
     #[test]

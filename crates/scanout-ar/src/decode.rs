@@ -86,6 +86,9 @@ pub fn read(image: &GreyImage, map: &Homography, side: usize, limits: &Limits) -
     // Cells with border and paper.
     let all = side + 4;
     let map = map.over_side((side + 2) as f64);
+    if !looks_framed(image, &map, side, limits) {
+        return None;
+    }
     let mut cells = [[0.0f64; MOST]; MOST];
     for (row, line) in cells[..all].iter_mut().enumerate() {
         for (column, cell) in line[..all].iter_mut().enumerate() {
@@ -160,6 +163,29 @@ pub fn read(image: &GreyImage, map: &Homography, side: usize, limits: &Limits) -
         }
     }
     Some(reading)
+}
+
+/// A first look at few samples: is the border mostly darker than the paper beside it, in three of five places?
+fn looks_framed(image: &GreyImage, map: &Homography, side: usize, limits: &Limits) -> bool {
+    let cells = side + 2;
+    let end = cells as f64;
+    let mut dark = 0;
+    for i in 0..cells {
+        let along = i as f64 + 0.5;
+        for (border, paper) in [
+            ([along, 0.5], [along, -0.4]),
+            ([along, end - 0.5], [along, end + 0.4]),
+            ([0.5, along], [-0.4, along]),
+            ([end - 0.5, along], [end + 0.4, along]),
+        ] {
+            let at = |[u, v]: [f64; 2]| {
+                let [x, y] = map.map(u, v);
+                image.sample(x, y)
+            };
+            dark += usize::from(at(paper) - at(border) > limits.contrast / 2.0);
+        }
+    }
+    dark as f64 > 0.6 * 4.0 * end
 }
 
 impl Reading {

@@ -19,8 +19,8 @@ use crate::edges;
 use crate::homography::Homography;
 use crate::image::{GreyImage, halve};
 use crate::pattern;
-use crate::quad::{Corners, from_outline, is_plausible, twice_area};
-use crate::threshold::{adaptive, columns, words};
+use crate::quad::{Corners, from_outline, is_plausible, is_square_in_perspective, twice_area};
+use crate::threshold::{MOST_MARGIN, MOST_RADIUS, adaptive, columns, margin, words};
 use libm::sqrt;
 
 /// A marker that was found.
@@ -53,17 +53,18 @@ impl Default for Detection {
 pub struct Parameters {
     /// Levels of the pyramid: 1 the picture only, 3 down to a quarter. At most 3.
     pub levels: usize,
-    /// Half the threshold's window, pixels of each level.
-    pub radius: usize,
-    /// How much darker than its surroundings black must be, grey levels.
-    pub margin: u8,
+    /// Half the threshold's window on each level, in its pixels, 1 - 7.
+    pub radius: [usize; 3],
+    /// How much darker than its surroundings black must be, grey levels up to 32; by the picture's noise when `None`.
+    pub margin: Option<u8>,
     /// Shortest side of a marker, pixels of its level.
     pub least_side: usize,
     /// Wrong bits that are put right, at most; never more than 3/5 of what the dictionary could correct, as in OpenCV.
     pub wrong: u8,
     /// Least agreement of the cells with the pattern, 0 - 1.
     pub agreement: f64,
-    /// Part of the edges' contrast that the fitted pattern must explain, 0 - 1: without and with wrong bits.
+    /// Part of the edges' contrast that the fitted pattern must explain, 0 - 1: for a pattern without wrong bits, and for one with wrong
+    /// bits or of few bits.
     pub fit: (f64, f64),
 }
 
@@ -71,8 +72,8 @@ impl Default for Parameters {
     fn default() -> Self {
         Self {
             levels: 3,
-            radius: 7,
-            margin: 5,
+            radius: [4, 7, 7],
+            margin: None,
             least_side: 8,
             wrong: 3,
             agreement: 0.8,
@@ -189,7 +190,9 @@ pub fn detect(
         let image = levels[level];
         let size = (image.width(), image.height());
         let bits = &mut memory.bits[..words(size.0) * size.1];
-        adaptive(&image, parameters.radius, parameters.margin, memory.sums, bits);
+        let radius = parameters.radius[level].clamp(1, MOST_RADIUS);
+        let margin = parameters.margin.unwrap_or_else(|| margin(&image)).min(MOST_MARGIN);
+        adaptive(&image, radius, margin, memory.sums, bits);
         follow(bits, size, memory.passed, memory.points, |outline, points| {
             if is_plausible(&outline, parameters.least_side)
                 && let Some(corners) = from_outline(&outline, points)
@@ -215,7 +218,11 @@ impl Search<'_> {
         if self.is_known(&corners.map(|corner| corner.map(|x| x * scale))) {
             return;
         }
-        let Some(fine) = edges::refine(&self.levels[level], corners) else { return };
+        let image = &self.levels[level];
+        if !is_square_in_perspective(corners, image.width().max(image.height()), 2.0) {
+            return;
+        }
+        let fine = edges::refine(&self.levels[level], corners).unwrap_or(*corners);
         let full = fine.map(|corner| corner.map(|x| x * scale));
         let Some((mut detection, reading)) = self.decode(level, &fine).or_else(|| {
             // Cells too small for this level may be read in the picture itself.
@@ -236,10 +243,11 @@ impl Search<'_> {
             (reading.black, reading.white),
         );
         let Some(fitted) = fitted else { return };
-        // Wrong bits ask for a clearer picture in return.
-        let least =
-            if detection.0.wrong == 0 { self.parameters.fit.0 } else { self.parameters.fit.1 };
-        if fitted.agreement < least {
+        // Wrong bits and patterns of few bits ask for a clearer picture in return.
+        let sure = detection.0.wrong == 0 && dictionary.bits_to_spare() >= 14;
+        let least = if sure { self.parameters.fit.0 } else { self.parameters.fit.1 };
+        let width = self.levels[0].width().max(self.levels[0].height());
+        if fitted.agreement < least || !is_square_in_perspective(&fitted.corners, width, 0.7) {
             return;
         }
         detection.0.corners = fitted.corners;

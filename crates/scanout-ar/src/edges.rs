@@ -7,7 +7,7 @@
 
 use crate::image::GreyImage;
 use crate::line::{Line, LineSums};
-use crate::quad::{Corners, is_convex};
+use crate::quad::{Corners, is_convex, twice_area};
 use libm::sqrt;
 
 /// Steps of a profile on either side.
@@ -17,6 +17,7 @@ const REACH: i32 = 3;
 /// any edge stay. `None` when what comes out is no quadrilateral.
 pub fn refine(image: &GreyImage, corners: &Corners) -> Option<Corners> {
     let origin = corners[0];
+    let area = twice_area(corners) / 2.0;
     let mut lines = [Line { normal: [0.0; 2], offset: 0.0 }; 4];
     for (side, line) in lines.iter_mut().enumerate() {
         let (a, b) = (corners[side], corners[(side + 1) % 4]);
@@ -27,6 +28,8 @@ pub fn refine(image: &GreyImage, corners: &Corners) -> Option<Corners> {
         }
         // Clockwise on the screen: outwards is on the left.
         let outward = [dy / length, -dx / length];
+        // Not beyond the border into the cells, an eighth or a sixth of the marker wide.
+        let step = (0.15 * area / length / f64::from(REACH)).clamp(0.4, 1.0);
         let count = ((length / 3.0) as usize).clamp(6, 24);
         let mut sums = LineSums::default();
         for i in 0..count {
@@ -34,15 +37,15 @@ pub fn refine(image: &GreyImage, corners: &Corners) -> Option<Corners> {
             let along = 0.1 + 0.8 * (i as f64 + 0.5) / count as f64;
             let (x, y) = (a[0] + dx * along, a[1] + dy * along);
             let at = |t: f64| image.sample(x + outward[0] * t, y + outward[1] * t);
-            let mut before = at(f64::from(-REACH));
+            let mut before = at(f64::from(-REACH) * step);
             let (mut weight, mut moment) = (0.0, 0.0);
-            for step in -REACH..REACH {
-                let next = at(f64::from(step + 1));
+            for i in -REACH..REACH {
+                let next = at(f64::from(i + 1) * step);
                 let rise = next - before;
                 before = next;
                 if rise > 0.0 {
                     weight += rise * rise;
-                    moment += rise * rise * (f64::from(step) + 0.5);
+                    moment += rise * rise * (f64::from(i) + 0.5) * step;
                 }
             }
             if weight > 4.0 {

@@ -24,7 +24,7 @@ use libm::sqrt;
 /// Samples of a profile.
 const SAMPLES: usize = 7;
 /// Rounds at most.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 5;
 
 /// What was fitted.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +72,7 @@ pub fn refine(
     let mut light = [black, 0.0, 0.0, white, 0.0, 0.0];
     let mut usual = f64::INFINITY;
     let mut agreement = 0.0;
-    let per_edge = ((cell / 5.0) as usize).clamp(1, 3);
+    let per_edge = ((cell / 6.0) as usize).clamp(1, 2);
     for round in 0..ROUNDS {
         let mut fit = Fit {
             light,
@@ -129,7 +129,7 @@ pub fn refine(
         }
         usual = (fit.off.0 / fit.off.1.max(1.0)).max(0.02);
         agreement = 1.0 - fit.misfit.0 / fit.misfit.1.max(1e-9);
-        if round > 1 && moved < 0.004 {
+        if round > 0 && moved < 0.01 {
             break;
         }
     }
@@ -257,7 +257,8 @@ fn accumulate<const N: usize>(
 ) {
     for i in 0..N {
         let scaled = row[i] * weight;
-        for (to, value) in sums.0[i].iter_mut().zip(row) {
+        // The lower triangle is all that is read.
+        for (to, value) in sums.0[i][..=i].iter_mut().zip(row) {
             *to += scaled * value;
         }
         sums.1[i] += scaled * right;

@@ -12,6 +12,7 @@
 
 use crate::contour::{Outline, Point};
 use crate::line::{Line, LineSums};
+use libm::sqrt;
 
 /// Four corners, clockwise on the screen (y down), in pixels.
 pub type Corners = [[f64; 2]; 4];
@@ -31,6 +32,25 @@ pub fn is_convex(corners: &Corners) -> bool {
     (0..4).all(|i| {
         let (a, b, c) = (corners[i], corners[(i + 1) % 4], corners[(i + 2) % 4]);
         (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) > 0.0
+    })
+}
+
+/// Could these be the corners of a square before a camera whose field of view is at most 110 degrees across `width` pixels?
+///
+/// Opposite sides of a square differ only by perspective: the nearer one is longer by (d + s / 2) / (d - s / 2) at most, d being its
+/// distance and s its side, and d / s is the focal length over the side in pixels. `slack` pixels are the corners' error.
+pub fn is_square_in_perspective(corners: &Corners, width: usize, slack: f64) -> bool {
+    let side = |i: usize| {
+        let (a, b) = (corners[i % 4], corners[(i + 1) % 4]);
+        sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]))
+    };
+    let longest = (0..4).map(side).fold(0.0, f64::max);
+    let half = longest / (2.0 * 0.35 * width as f64);
+    // Nearly a third more for lenses that distort.
+    let most = if half < 0.9 { 1.3 * (1.0 + half) / (1.0 - half) } else { f64::INFINITY };
+    [0, 1].into_iter().all(|i| {
+        let (a, b) = (side(i), side(i + 2));
+        a.max(b) - slack <= most * (a.min(b) + slack)
     })
 }
 
@@ -210,5 +230,16 @@ mod tests {
         assert!(quads(|x, y| (x - 50.0).powi(2) + (y - 40.0).powi(2) < 900.0).is_empty());
         assert!(quads(|x, y| x > 20.0 && y > 10.0 && x + y < 80.0).is_empty());
         assert!(quads(|x, y| (20.0..25.0).contains(&x) && (20.0..25.0).contains(&y)).is_empty());
+    }
+
+    #[test]
+    fn a_small_square_is_hardly_changed_by_perspective() {
+        let small = [[100.0, 100.0], [120.0, 100.0], [115.0, 130.0], [105.0, 130.0]];
+        assert!(!is_square_in_perspective(&small, 640, 0.0));
+        // As large as the picture, such a trapezium is possible.
+        let large = small.map(|corner| corner.map(|x| (x - 100.0) * 15.0));
+        assert!(is_square_in_perspective(&large, 640, 0.0));
+        let thin = [[100.0, 100.0], [120.0, 110.0], [120.0, 115.0], [100.0, 105.0]];
+        assert!(is_square_in_perspective(&thin, 640, 0.0));
     }
 }

@@ -100,6 +100,13 @@ impl Dictionary {
         self.count == 0
     }
 
+    /// How many bits a pattern holds beyond those that tell the markers and their four orientations apart: random cells are a marker
+    /// once in 2 to the power of this.
+    pub const fn bits_to_spare(&self) -> u32 {
+        let bits = self.side as u32 * self.side as u32;
+        bits - (4 * self.count as u32).ilog2()
+    }
+
     /// Marker `id`'s pattern: `side * side` bits, white = 1, rows from the top, the first cell in the highest of them.
     /// `None` when there is no such marker.
     pub fn code(&self, id: usize) -> Option<u64> {
