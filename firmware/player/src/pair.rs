@@ -48,6 +48,95 @@ impl Harts for Alone {
     }
 }
 
+/// A machine of two harts: the second one runs [`serve`](Mailbox::serve) for ever.
+#[derive(Debug)]
+pub struct Mailbox {
+    state: AtomicUsize,
+    job: UnsafeCell<Option<Job>>,
+}
+
+/// Work on loan; who lends it waits until it is done.
+type Job = &'static mut (dyn FnMut() + Send);
+
+// States of a mailbox.
+const EMPTY: usize = 0;
+const BEING_FILLED: usize = 1;
+const FULL: usize = 2;
+
+// SAFETY: `job` is reached by the hart that moved the state from EMPTY to BEING_FILLED until it stores FULL, then by the
+// serving hart until that stores EMPTY; each store releases what the next load acquires. Jobs are `Send`.
+unsafe impl Sync for Mailbox {}
+
+impl Mailbox {
+    /// An empty one, for a static.
+    pub const fn new() -> Self {
+        Mailbox { state: AtomicUsize::new(EMPTY), job: UnsafeCell::new(None) }
+    }
+
+    /// Does what the other hart asks, for ever. For one hart only: a second one would find the mailbox emptied.
+    pub fn serve(&self) -> ! {
+        loop {
+            self.serve_once();
+        }
+    }
+
+    fn serve_once(&self) {
+        while self.state.load(Ordering::Acquire) != FULL {
+            wait();
+        }
+        // SAFETY: the state is FULL, so the content is this hart's; see `Sync`.
+        if let Some(job) = unsafe { (*self.job.get()).take() } {
+            job();
+        }
+        self.state.store(EMPTY, Ordering::Release);
+    }
+}
+
+impl Default for Mailbox {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Harts for Mailbox {
+    const TWO: bool = true;
+
+    fn join(&self, here: &mut dyn FnMut(), there: &mut (dyn FnMut() + Send)) {
+        /// Waits for the other hart even if this one's work panics: the job is borrowed from the stack.
+        struct Done<'a>(&'a Mailbox);
+        impl Drop for Done<'_> {
+            fn drop(&mut self) {
+                while self.0.state.load(Ordering::Acquire) != EMPTY {
+                    wait();
+                }
+            }
+        }
+        let filling = (EMPTY, BEING_FILLED);
+        while self
+            .state
+            .compare_exchange_weak(filling.0, filling.1, Ordering::Acquire, Ordering::Relaxed)
+            .is_err()
+        {
+            wait();
+        }
+        // SAFETY: only the lifetime changes. `Done` keeps this call, and so the loan, until the job has ended.
+        let job = unsafe { core::mem::transmute::<&mut (dyn FnMut() + Send), Job>(there) };
+        // SAFETY: this hart moved the state to BEING_FILLED, so the content is its; see `Sync`.
+        unsafe { *self.job.get() = Some(job) };
+        self.state.store(FULL, Ordering::Release);
+        let done = Done(self);
+        here();
+        drop(done);
+    }
+}
+
+fn wait() {
+    // A PC's threads may share a processor.
+    #[cfg(any(test, feature = "std"))]
+    std::thread::yield_now();
+    core::hint::spin_loop();
+}
+
 /// A value that is used in turns: turn 0 first, then turn 1, and so on, each once.
 #[derive(Debug)]
 pub struct Turns<T> {
@@ -74,10 +163,7 @@ impl<T> Turns<T> {
             .compare_exchange_weak(open, taken, Ordering::Acquire, Ordering::Relaxed)
             .is_err()
         {
-            // A PC's threads may share a processor.
-            #[cfg(any(test, feature = "std"))]
-            std::thread::yield_now();
-            core::hint::spin_loop();
+            wait();
         }
         // SAFETY: this hart alone has taken the turn; see `Sync`.
         let result = with(unsafe { &mut *self.value.get() });
@@ -215,6 +301,17 @@ mod tests {
             }
         });
         assert!(cell.take(4000, |order| order.iter().copied().eq(0..4000)));
+    }
+
+    #[test]
+    fn a_mailbox_runs_both_jobs_and_waits() {
+        static MAILBOX: Mailbox = Mailbox::new();
+        std::thread::spawn(|| MAILBOX.serve());
+        let (mut here, mut there) = (0u32, 0u32);
+        for round in 1..=1000 {
+            MAILBOX.join(&mut || here += 1, &mut || there += 2);
+            assert_eq!((here, there), (round, 2 * round));
+        }
     }
 
     #[test]

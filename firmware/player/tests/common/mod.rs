@@ -12,12 +12,7 @@ use player::card::Card;
 use player::fault::{CardFault, Fault};
 use player::pair::Harts;
 use player::play::{Board, Storage, play};
-use player::scene::{self, HEIGHT, Model, Placement, TURN, WIDTH};
-use scanout::frame::{Frame, Needed, ObjectState, Primitive, Settings, Store};
 use scanout::math::Q16;
-use scanout::output::Rgb565;
-use scanout::transform::Vertex;
-use scanout_assets::{Limits, LoadOptions, load, load_image};
 use scanout_display::flush::BlockingInterface;
 use scanout_display::init::Setup;
 use scanout_display::model::{DisplayModel, Glass, ModelError, NoDelay, Picture};
@@ -304,37 +299,11 @@ pub fn new_storage() -> Box<Memory> {
     Box::new(Memory::new())
 }
 
-/// The hashes of a model's first frames as the PC's own loader and one thread make them, in one band.
+/// The hashes of a model's first frames as the PC makes them.
 pub fn expected(name: &str, textured: bool, scale: Q16, frames: u32) -> Vec<u64> {
-    let loaded = load(models().join(format!("{name}.obj")), &LoadOptions::default()).unwrap();
-    assert_eq!(loaded.parts.len(), 1);
-    let mesh = loaded.parts[0].mesh.as_mesh();
-    let picture = load_image(models().join(format!("{name}.ppm")), &Limits::default()).unwrap().0;
-    let texels = picture.to_rgb565();
-    let q32 = |x: f64| (x * 4_294_967_296.0).round() as i64;
-    let placement =
-        Placement { scale: q32(loaded.placement.scale), offset: loaded.placement.offset.map(q32) };
-    let texture = textured.then(|| picture.as_texture565(&texels));
-    let model = Model { mesh, texture, placement };
-    let mut hashes = Vec::new();
-    for number in 0..frames.min(TURN) {
-        hashes.push(scene::with_scene(&model, scale, number, |scene| {
-            let needed = Needed::at_most(scene);
-            let mut vertices = vec![Vertex::default(); needed.vertices];
-            let mut primitives = vec![Primitive::default(); needed.primitives];
-            let mut objects = [ObjectState::default()];
-            let store = Store {
-                vertices: &mut vertices,
-                primitives: &mut primitives,
-                objects: &mut objects,
-            };
-            let frame = Frame::prepare(scene, Settings::new(WIDTH, HEIGHT), store).unwrap();
-            let size = usize::from(WIDTH) * usize::from(HEIGHT);
-            let (mut colour, mut depth) = (vec![0; size], vec![0; size]);
-            frame.hash::<Rgb565>(HEIGHT, &mut colour, &mut depth).unwrap()
-        }));
-    }
-    (0..frames as usize).map(|frame| hashes[frame % TURN as usize]).collect()
+    let picture = textured.then(|| models().join(format!("{name}.ppm")));
+    let obj = models().join(format!("{name}.obj"));
+    monitor::expected::hashes(&obj, picture.as_deref(), scale, frames).unwrap()
 }
 
 /// Moves every cluster but the first of each file and folder to some other place.
