@@ -1,9 +1,11 @@
 axi4_lite_to_wishbone.sv
+clip.sv
 control_registers.sv
 debounce.sv
 delay_line.sv
 dvi.sv
 framebuffer.sv
+gpu.sv
 line.sv
 line_clip.sv
 line_clipped.sv
@@ -12,6 +14,7 @@ line_memory.sv
 line_ramp.sv
 line_setup.sv
 line_walk.sv
+model_memory.sv
 muldiv.sv
 output_format.sv
 overlay.sv
@@ -21,6 +24,7 @@ plane_memory_spram.sv
 project.sv
 scan_out.sv
 screen.sv
+spin.sv
 stereo_mix.sv
 stereo_place.sv
 synchronise.sv
@@ -30,3 +34,4 @@ transform.sv
 video_pins.sv
 video_timing.sv
 widen_format.sv
+wireframe.sv

@@ -67,7 +67,16 @@ module line #(
         .m_m    (m_3),
         .m_from (from_3),
         .m_to   (to_3),
-        .*
+        .clk(clk),
+        .advance(advance),
+        .s_a_x(s_a_x),
+        .s_a_y(s_a_y),
+        .s_b_x(s_b_x),
+        .s_b_y(s_b_y),
+        .s_a_z(s_a_z),
+        .s_b_z(s_b_z),
+        .s_a_rgb(s_a_rgb),
+        .s_b_rgb(s_b_rgb)
     );
 
     logic [W_PATH-1:0] path_3, path;
@@ -97,7 +106,8 @@ module line #(
                 .s_to  (to_3),
                 .m_step(step),
                 .m_fall(fall),
-                .*
+                .clk(clk),
+                .advance(advance)
             );
             for (genvar c = 0; c < 3; c++) begin : g_channel
                 assign now[28*c+:28] = {from[8*c+:8], 1'b1, 19'b0};
@@ -141,7 +151,14 @@ module line #(
         .s_now  (now),
         .s_step (step),
         .s_fall (fall),
-        .*
+        .clk(clk),
+        .rst_n(rst_n),
+        .m_valid(m_valid),
+        .m_ready(m_ready),
+        .m_x(m_x),
+        .m_y(m_y),
+        .m_rgb(m_rgb),
+        .m_last(m_last)
     );
 endmodule
 

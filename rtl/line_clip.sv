@@ -71,7 +71,12 @@ module line_clip #(
         .n(part),
         .d(whole),
         .r(rest),
-        .*
+        .clk(clk),
+        .rst_n(rst_n),
+        .start(start),
+        .b(b),
+        .busy(busy),
+        .q(q)
     );
     logic signed [V-1:0] quotient_up;
     assign quotient_up = $signed({1'b0, q}) + V'(signed'({1'b0, rest != '0}));

@@ -50,8 +50,8 @@ module line_clipped #(
     ) i_setup (
         .s_a_z  (1'b0),
         .s_b_z  (1'b0),
-        .s_a_rgb('0),
-        .s_b_rgb('0),
+        .s_a_rgb(24'd0),
+        .s_b_rgb(24'd0),
         .m_x    (x),
         .m_y    (y),
         .m_steep(steep),
@@ -60,7 +60,12 @@ module line_clipped #(
         .m_m    (m),
         .m_from (unused_from),
         .m_to   (unused_to),
-        .*
+        .clk(clk),
+        .advance(advance),
+        .s_a_x(s_a_x),
+        .s_a_y(s_a_y),
+        .s_b_x(s_b_x),
+        .s_b_y(s_b_y)
     );
 
     logic                path_valid, path_ready, path_steep, path_back;
@@ -90,7 +95,10 @@ module line_clipped #(
         .m_rise (path_rise),
         .m_turn (path_turn),
         .m_error(path_error),
-        .*
+        .clk(clk),
+        .rst_n(rst_n),
+        .width(width),
+        .height(height)
     );
 
     line_walk #(
@@ -107,11 +115,17 @@ module line_clipped #(
         .s_rise (path_rise),
         .s_turn (path_turn),
         .s_error(path_error),
-        .s_now  ('0),
-        .s_step ('0),
-        .s_fall ('0),
+        .s_now  (84'd0),
+        .s_step (84'd0),
+        .s_fall (3'd0),
         .m_rgb  (unused_rgb),
-        .*
+        .clk(clk),
+        .rst_n(rst_n),
+        .m_valid(m_valid),
+        .m_ready(m_ready),
+        .m_x(m_x),
+        .m_y(m_y),
+        .m_last(m_last)
     );
 endmodule
 

@@ -6,21 +6,22 @@
 //   y = 8 height - ((y_c r >> 31) 8 height + 2^(31 - lz)) >> (32 - lz)
 //   z = ((z_c r >> 31) 65535 2^16) >> (32 - lz), at most 65535.0             U16.16, with DEPTH 1
 //
-//   | s_x ... s_w  | clip coordinates, 32 bits with sign, sizes below 2^30 + 4                                      |
+//   | s_data       | clip coordinates, a word each: w, x, y, z; 32 bits with sign, sizes below 2^30 + 4              |
+//   | s_tag, m_tag | comes back with the result; that of the last word counts                                        |
 //   | width, height | of the frame in pixels, 1 to 4095                                                              |
 //   | m_x, m_y     | Q28.4                                                                                           |
 //   | m_flags      | bit 0 near (z < 0 or w <= 0), 1 far (z > w), 2 guard band (|x| or |y| > 8192 w); when any is set |
 //   |              | nothing else means anything                                                                     |
 //   | m_inverse, m_exponent | r and lz: 1/w = r 2^(lz - 63)                                                          |
 //
-// Two units in a row, so that a vertex is divided while the one before is scaled. The first finds lz a bit a clock and r by
-// restoring division, a bit a clock; the numerator is all ones, so no register holds it. The second has one multiplier of
-// 16 x 16 bits with sign and works in digits: with t = r - 3 2^30, which is r's bits with bit 30 turned over as sign,
+// r comes from a restoring division, a bit a clock; the numerator is all ones, so no register holds it. The rest is done by one
+// multiplier of 16 x 16 bits with sign, in digits of 15 bits, which are slices of their numbers, the highest one with its sign:
 //
-//   x_c r = (2^31 + 2^30) x_c + (c1 2^16 + c0)(t1 2^16 + t0)
+//   (c2 2^30 + c1 2^15 + c0)(r2 2^30 + r1 2^15 + r0)     nine, the largest place first; the sum moves 15 bits between places
+//   (g2 2^30 + g1 2^15 + g0) 8 width                     three, with g = the ratio, 33 bits
 //
-// Clocks a vertex: the larger of lz + 35 (first) and 2 (lz + 14) + 1 (second; 3 (lz + 14) + 1 with DEPTH), lz being at least 1 and small
-// when the matrix uses its bits; a flagged vertex takes 2. Latency: their sum.
+// Clocks a vertex in view: 4 words, lz + 33 for r, lz + 17 an axis, 1: 3 lz + 72 with x and y. lz is at least 1, and small where the
+// matrix uses its bits. A flagged vertex takes 5.
 `default_nettype none
 
 module project #(
@@ -33,10 +34,7 @@ module project #(
     input  wire logic [11:0]        height,
     input  wire logic               s_valid,
     output logic                    s_ready,
-    input  wire logic signed [31:0] s_x,
-    input  wire logic signed [31:0] s_y,
-    input  wire logic signed [31:0] s_z,
-    input  wire logic signed [31:0] s_w,
+    input  wire logic signed [31:0] s_data,
     input  wire logic [W_TAG-1:0]   s_tag,
     output logic                    m_valid,
     input  wire logic               m_ready,
@@ -48,23 +46,39 @@ module project #(
     output logic [4:0]              m_exponent,
     output logic [W_TAG-1:0]        m_tag
 );
-    // ---- First unit: flags, lz and r.
-    typedef enum logic [1:0] {EMPTY, NORMALISE, DIVIDE, DONE} state_t;
-    state_t             state;
-    logic signed [31:0] x, y, z;
-    logic [31:0]        divisor, quotient;
-    logic [31:0]        rest;
-    logic [4:0]         count, exponent;
-    logic [2:0]         flags, s_flags;
-    logic [W_TAG-1:0]   tag;
-    logic               scale_ready;
+    typedef enum logic [2:0] {LOAD, NORMALISE, DIVIDE, RATIO, SHIFT, DONE} state_t;
+    localparam logic [1:0] LAST_AXIS = DEPTH != 0 ? 2'd2 : 2'd1;
 
-    logic signed [45:0] guard;
-    assign guard = {s_w[31], s_w, 13'b0};
-    assign s_flags[0] = s_z < 0 || s_w <= 0;
-    assign s_flags[1] = s_z > s_w;
-    assign s_flags[2] = 46'(s_x) > guard || -46'(s_x) > guard || 46'(s_y) > guard || -46'(s_y) > guard;
-    assign s_ready = state == EMPTY;
+    state_t             state;
+    logic [1:0]         word;
+    logic [4:0]         step;
+    logic               last_step;
+    logic [31:0]        divisor, rest;
+    logic signed [31:0] c, c_next, c_last;
+    assign s_ready   = state == LOAD;
+    assign m_valid   = state == DONE;
+    assign last_step = step == '1;
+
+    // |v| > 2^13 w, without the low 13 bits: -v > 2^13 w when w + floor(v / 2^13) < 0, and v > 2^13 w when w - ceil(v / 2^13) < 0.
+    logic signed [32:0] w, below, above, beyond;
+    logic signed [18:0] s_high;
+    logic [2:0]         flags;
+    assign w      = $signed({divisor[31], divisor});
+    assign s_high = s_data[31:13];
+    assign below  = w + 33'(s_high);
+    assign above  = w - 33'(s_high) - 33'(signed'({1'b0, s_data[12:0] != '0}));
+    assign beyond = w - 33'(s_data);
+    always_comb begin
+        flags = m_flags;
+        case (word)
+            2'd0: flags = {2'b00, s_data <= 0};
+            2'd3: begin
+                flags[0] = m_flags[0] || s_data < 0;
+                flags[1] = beyond < 0;
+            end
+            default: flags[2] = m_flags[2] || below < 0 || above < 0;
+        endcase
+    end
 
     // 2 rest + 1 - divisor: the numerator's next bit is a one. Within 33 bits, since rest < divisor.
     logic [32:0] difference;
@@ -72,155 +86,107 @@ module project #(
     assign difference = {rest, 1'b1} - {1'b0, divisor};
     assign fits       = !difference[32];
 
+    // Digits for step 0 to 11, products two clocks later, added in steps 2 to 13; `move` before the first product of a place.
+    logic signed [15:0] a, b, a_1, b_1, half;
+    logic signed [31:0] product_2;
+    logic signed [63:0] sum;
+    logic [1:0]         axis;
+    logic               move;
+    assign half = $signed({1'b0, axis == 2'd0 ? width : height, 3'b000});
+    always_comb begin
+        case (step[3:0])
+            4'd0, 4'd1, 4'd3: a = {{14{c[31]}}, c[31:30]};
+            4'd2, 4'd4, 4'd6: a = {1'b0, c[29:15]};
+            4'd5, 4'd7, 4'd8: a = {1'b0, c[14:0]};
+            4'd11: a = {{13{sum[63]}}, sum[63:61]};
+            4'd12: a = {1'b0, sum[60:46]};
+            default: a = {1'b0, sum[45:31]};
+        endcase
+        case (step[3:0])
+            4'd0, 4'd2, 4'd5: b = {14'b0, m_inverse[31:30]};
+            4'd1, 4'd4, 4'd7: b = {1'b0, m_inverse[29:15]};
+            4'd3, 4'd6, 4'd8: b = {1'b0, m_inverse[14:0]};
+            default: b = half;
+        endcase
+        // One step late, as the sum is.
+        case (step[3:0])
+            4'd3, 4'd5, 4'd8, 4'd10, 4'd14, 4'd15: move = state == RATIO;
+            default: move = 1'b0;
+        endcase
+    end
+
+    logic signed [63:0] total, rounded;
+    logic signed [63:0] depth;
+    assign total   = (move ? sum << 15 : sum) + (state == SHIFT ? sum : 64'(product_2));
+    assign rounded = sum + 64'sh8000_0000;
+
     always_ff @(posedge clk) begin
+        a_1       <= a;
+        b_1       <= b;
+        product_2 <= a_1 * b_1;
         case (state)
-            EMPTY: begin
-                if (s_valid) state <= s_flags != '0 ? DONE : NORMALISE;
-                {x, y, z, divisor} <= {s_x, s_y, s_z, s_w};
-                flags    <= s_flags;
-                tag      <= s_tag;
-                exponent <= '0;
-                count    <= '0;
-                rest     <= 32'h7fff_ffff;
+            LOAD: begin
+                step       <= '0;
+                axis       <= '0;
+                m_exponent <= '0;
+                rest       <= 32'h7fff_ffff;
+                if (s_valid) begin
+                    word    <= word + 1'b1;
+                    m_flags <= flags;
+                    m_tag   <= s_tag;
+                    if (word == 2'd0) divisor <= s_data;
+                    {c, c_next, c_last} <= {c_next, c_last, s_data};
+                    if (word == 2'd3) state <= flags != '0 ? DONE : NORMALISE;
+                end
             end
             NORMALISE: begin
                 if (divisor[31]) begin
                     state <= DIVIDE;
                 end else begin
-                    divisor  <= divisor << 1;
-                    exponent <= exponent + 1'b1;
+                    divisor    <= divisor << 1;
+                    m_exponent <= m_exponent + 1'b1;
                 end
             end
             DIVIDE: begin
-                rest     <= fits ? difference[31:0] : {rest[30:0], 1'b1};
-                quotient <= {quotient[30:0], fits};
-                count    <= count + 1'b1;
-                if (count == '1) state <= DONE;
+                rest      <= fits ? difference[31:0] : {rest[30:0], 1'b1};
+                m_inverse <= {m_inverse[30:0], fits};
+                step      <= step + 1'b1;
+                if (last_step) state <= RATIO;
             end
-            default: if (scale_ready) state <= EMPTY;
-        endcase
-        if (!rst_n) state <= EMPTY;
-    end
-
-    // ---- Second unit: ratio, scale, shift, for x, y and z in turn.
-    //
-    //   step  0 1 2 3 4 5   6 7    8 9 10   11 12   13 ...      13 + lz
-    //         six products  sum    three    sum     shift left  round
-    //
-    // Products enter the sum two clocks after their digits are chosen.
-    localparam logic [3:0] SCALE = 4'd8;
-    localparam logic [3:0] SHIFT = 4'd13;
-    localparam logic [1:0] LAST_AXIS = DEPTH != 0 ? 2'd2 : 2'd1;
-
-    logic               busy;
-    logic [1:0]         axis;
-    logic [3:0]         step;
-    logic [4:0]         shifts;
-    logic signed [31:0] c, next_c, last_c;
-    logic signed [15:0] half;
-    logic signed [63:0] sum;
-    logic signed [15:0] a_1, b_1;
-    logic signed [31:0] product_2;
-    logic [1:0]         place_1, place_2;
-    logic               add_1, add_2, take;
-
-    assign scale_ready = !busy && (!m_valid || m_ready);
-    assign take        = state == DONE && scale_ready;
-    assign half        = $signed({1'b0, axis == 2'd0 ? width : height, 3'b000});
-
-    // Digits of c, t, and of the ratio, which is bits 63 to 31 of the sum; each digit but the highest takes its sign from below.
-    logic signed [15:0] c1, c0, t1, t0, ratio0, ratio1, ratio2;
-    logic [16:0]        upper;
-    assign c0     = c[15:0];
-    assign c1     = c[31:16] + 16'(c[15]);
-    assign t0     = m_inverse[15:0];
-    assign t1     = {{2{!m_inverse[30]}}, m_inverse[29:16]} + 16'(m_inverse[15]);
-    assign ratio0 = sum[46:31];
-    assign upper  = sum[63:47] + 17'(sum[46]);
-    assign ratio1 = upper[15:0];
-    assign ratio2 = 16'(signed'(upper[16])) + 16'(upper[15]);
-
-    logic signed [15:0] a, b;
-    logic [1:0]         place;
-    logic               add;
-    always_comb begin
-        {a, b, place, add} = {c1, t1, 2'd2, busy};
-        case (step)
-            4'd0: {a, b, place} = {c1, t1, 2'd2};
-            4'd1: {a, b, place} = {c1, t0, 2'd1};
-            4'd2: {a, b, place} = {c0, t1, 2'd1};
-            4'd3: {a, b, place} = {c0, t0, 2'd0};
-            4'd4: {a, b, place} = {c1, 16'sh4000, 2'd2};
-            4'd5: {a, b, place} = {c0, 16'sh4000, 2'd1};
-            4'd8: {a, b, place} = {ratio0, half, 2'd0};
-            4'd9: {a, b, place} = {ratio1, half, 2'd1};
-            4'd10: {a, b, place} = {ratio2, half, 2'd2};
-            default: add = 1'b0;
-        endcase
-        if (DEPTH != 0 && axis == 2'd2 && step >= SCALE) add = 1'b0;
-    end
-
-    logic signed [63:0] addend;
-    always_comb begin
-        case (place_2)
-            2'd2: addend = {product_2, 32'b0};
-            2'd1: addend = {{16{product_2[31]}}, product_2, 16'b0};
-            default: addend = 64'(product_2);
-        endcase
-    end
-
-    logic signed [31:0] rounded;
-    assign rounded = sum[63:32] + 32'(sum[31]);
-
-    always_ff @(posedge clk) begin
-        {a_1, b_1, place_1} <= {a, b, place};
-        product_2 <= a_1 * b_1;
-        place_2   <= place_1;
-        {add_2, add_1} <= {add_1, add};
-
-        // 2^31 c comes before the first six products, nothing before the other three: the ratio's last digit is taken from the
-        // sum when their first one enters.
-        if (step == 4'd1) sum <= {c[31], c, 31'b0};
-        else if (step == SCALE + 4'd2) sum <= DEPTH != 0 && axis == 2'd2 ? depth : addend;
-        else if (add_2) sum <= sum + addend;
-        else if (step == SHIFT && shifts != '0) sum <= sum << 1;
-
-        if (take) begin
-            busy       <= flags == '0;
-            m_valid    <= flags != '0;
-            m_flags    <= flags;
-            m_inverse  <= quotient;
-            m_exponent <= exponent;
-            m_tag      <= tag;
-            {c, next_c, last_c} <= {x, y, z};
-            shifts     <= exponent;
-            axis       <= '0;
-            step       <= '0;
-        end else begin
-            if (m_ready) m_valid <= 1'b0;
-            if (busy) begin
-                if (step != SHIFT) step <= step + 1'b1;
-                else if (shifts != '0) shifts <= shifts - 1'b1;
-                else begin
-                    // Round, and on to the next axis.
-                    if (axis == 2'd0) m_x <= 32'(half) + rounded;
-                    if (axis == 2'd1) m_y <= 32'(half) - rounded;
-                    step   <= '0;
-                    shifts <= m_exponent;
-                    axis   <= axis + 1'b1;
-                    {c, next_c} <= {next_c, last_c};
-                    if (axis == LAST_AXIS) begin
-                        busy    <= 1'b0;
-                        m_valid <= 1'b1;
-                    end
+            RATIO: begin
+                step <= step + 1'b1;
+                // Nothing is in the sum before the first product of each kind.
+                if (step[3:0] == 4'd2) sum <= 64'(product_2);
+                else if (step[3:0] == 4'd13) sum <= DEPTH != 0 && axis == 2'd2 ? depth : 64'(product_2);
+                else if (step != 5'd0 && step != 5'd1 && step[3:0] != 4'd11 && step[3:0] != 4'd12
+                         && !(DEPTH != 0 && axis == 2'd2 && step[3:0] > 4'd13)) sum <= total;
+                if (step[3:0] == 4'd15) begin
+                    state <= SHIFT;
+                    step  <= m_exponent;
                 end
             end
+            SHIFT: begin
+                step <= step - 1'b1;
+                if (step != '0) begin
+                    sum <= total;
+                end else begin
+                    if (axis == 2'd0) m_x <= 32'(half) + rounded[63:32];
+                    if (axis == 2'd1) m_y <= 32'(half) - rounded[63:32];
+                    step  <= '0;
+                    axis  <= axis + 1'b1;
+                    {c, c_next} <= {c_next, c_last};
+                    state <= axis == LAST_AXIS ? DONE : RATIO;
+                end
+            end
+            default: if (m_ready) state <= LOAD;
+        endcase
+        if (!rst_n) begin
+            state <= LOAD;
+            word  <= '0;
         end
-        if (!rst_n) {busy, m_valid} <= '0;
     end
 
-    // 65535 2^16 ratio, and the limit of depths.
-    logic [63:0] depth;
+    // 65535 2^16 ratio = (2^32 - 2^16) ratio, and the limit of depths.
     generate
         if (DEPTH != 0) begin : g_depth
             assign depth = {sum[62:31], 32'b0} - {15'b0, sum[63:31], 16'b0};
@@ -228,12 +194,12 @@ module project #(
                 if (axis == 2'd2) m_z <= &sum[63:48] ? 32'hffff_0000 : sum[63:32];
             end
         end else begin : g_no_depth
-            logic unused_z;
-            assign unused_z = &{1'b0, last_c};
             assign depth = '0;
             assign m_z = '0;
         end
     endgenerate
+    logic unused_fraction;
+    assign unused_fraction = &{1'b0, rounded[31:0]};
 endmodule
 
 `default_nettype wire

@@ -4,8 +4,8 @@
 //
 //   | s_position  | z, y, x: Q1.15 each, a word of `scanout bake`'s vertices.hex                            |
 //   | m           | 16 words of 32 bits, one power of two in common; the sum of a row's sizes below 2^30 + 2  |
-//   | m_x ... m_w | clip coordinates: 32 bits, signed, the same power of two                                  |
-//   | s_tag, m_tag | whatever the caller wants to get back with the result                                    |
+//   | m_data      | clip coordinates, a word each: w, x, y, z; 32 bits, signed, the same power of two          |
+//   | s_tag, m_tag | whatever the caller wants to get back with each word of the result                       |
 //
 // A matrix entry is two signed digits, m = high 2^16 + low with high = (m >> 16) + m[15], so that every product is 16 x 16 bits with
 // sign: one multiplier of any family.
@@ -13,7 +13,7 @@
 //   | MULTIPLIERS | products at a time              | clocks a vertex |
 //   | 1           | one                             | 28              |
 //   | 3           | the three terms of a row        | 8               |
-//   | 12          | the three terms of all rows     | 2               |
+//   | 12          | the three terms of all rows     | 5: 4 words out  |
 //
 // The matrix has two banks. Words are written to the hidden one; `swap` exchanges them. Write all 16 words before each swap, and swap
 // between frames: positions that are under way would see both. Words are read in the clock after their address, as block RAM does.
@@ -35,10 +35,7 @@ module transform #(
     input  wire logic [W_TAG-1:0]   s_tag,
     output logic                    m_valid,
     input  wire logic               m_ready,
-    output logic signed [31:0]      m_x,
-    output logic signed [31:0]      m_y,
-    output logic signed [31:0]      m_z,
-    output logic signed [31:0]      m_w,
+    output logic signed [31:0]      m_data,
     output logic [W_TAG-1:0]        m_tag
 );
     localparam int ROWS = MULTIPLIERS == 12 ? 4 : 1;
@@ -47,32 +44,35 @@ module transform #(
     localparam int SLOTS = TERMS == 1 ? 7 : 2;
 
     // Everything waits while a result isn't taken.
-    logic advance;
-    assign advance = !m_valid || m_ready;
+    logic       advance;
+    logic [1:0] more;
+    assign advance = !m_valid || (m_ready && more == '0);
 
     // Stage 0: which slot.
     logic             busy, bank;
-    logic [1:0]       row;
+    logic [1:0]       count, row;
     logic [2:0]       slot;
     logic [47:0]      position;
     logic [W_TAG-1:0] tag;
     logic             last_slot, last_row;
     assign last_slot = slot == 3'(SLOTS - 1);
-    assign last_row  = ROWS == 4 || row == 2'd3;
+    assign last_row  = ROWS == 4 || count == 2'd3;
+    // w first.
+    assign row       = count - 1'b1;
     assign s_ready   = advance && (!busy || (last_slot && last_row));
 
     always_ff @(posedge clk) begin
         if (!rst_n) begin
             busy <= 1'b0;
             bank <= 1'b0;
-            row  <= '0;
+            count <= '0;
             slot <= '0;
         end else begin
             if (swap) bank <= !bank;
             if (s_ready) busy <= s_valid;
             if (advance && busy) begin
                 slot <= last_slot ? '0 : slot + 1'b1;
-                if (last_slot) row <= last_row ? '0 : row + 1'b1;
+                if (last_slot) count <= last_row ? '0 : count + 1'b1;
             end
         end
         if (s_ready) begin
@@ -85,8 +85,8 @@ module transform #(
     // Stage 5: the row's sum.
     logic [1:0]         term;
     logic [2:0]         slot_1;
-    logic               high_1, high_2, high_3, high_4, add_1, add_2;
-    logic [4:1]         valid, first, last, final_row;
+    logic               high_1, high_2, high_3, add_1, add_2;
+    logic [4:1]         valid, last;
     logic [TERMS*16-1:0] terms_1, terms_2;
     assign term = TERMS == 1 ? slot[2:1] : 2'd0;
 
@@ -95,12 +95,10 @@ module transform #(
         else if (advance) valid <= {valid[3:1], busy};
         if (advance) begin
             slot_1    <= slot;
-            first     <= {first[3:1], slot == '0};
             last      <= {last[3:1], last_slot};
-            final_row <= {final_row[3:1], last_row};
             terms_1   <= TERMS == 1 ? (TERMS * 16)'(position[16*term+:16]) : (TERMS * 16)'(position);
             terms_2   <= terms_1;
-            {high_4, high_3, high_2} <= {high_3, high_2, high_1};
+            {high_3, high_2} <= {high_2, high_1};
             add_2     <= add_1;
         end
     end
@@ -194,19 +192,39 @@ module transform #(
     // Tags travel beside the rows; one vertex may be in stage 0 while another is still being summed.
     logic [W_TAG*4-1:0] tags;
     always_ff @(posedge clk) begin
-        if (!rst_n) m_valid <= 1'b0;
-        else if (advance) m_valid <= valid[4] && last[4] && final_row[4];
-        if (advance) begin
-            tags <= (W_TAG * 4)'({tags, tag});
-            if (valid[4] && last[4]) begin
-                m_tag <= tags[4*W_TAG-1-:W_TAG];
-                if (ROWS == 4) {m_w, m_z, m_y, m_x} <= 128'(results);
-                else {m_w, m_z, m_y, m_x} <= {results[31:0], m_w, m_z, m_y};
+        if (advance) tags <= (W_TAG * 4)'({tags, tag});
+        if (advance && valid[4] && last[4]) m_tag <= tags[4*W_TAG-1-:W_TAG];
+    end
+
+    logic unused_row;
+    assign unused_row = &{1'b0, row};
+
+    generate
+        if (ROWS == 1) begin : g_serial
+            assign more = '0;
+            always_ff @(posedge clk) begin
+                if (!rst_n) m_valid <= 1'b0;
+                else if (advance) m_valid <= valid[4] && last[4];
+                if (advance && valid[4] && last[4]) m_data <= results;
+            end
+        end else begin : g_parallel
+            // All rows at once: w goes out, the others follow.
+            logic [95:0] waiting;
+            always_ff @(posedge clk) begin
+                if (advance) begin
+                    m_valid <= valid[4] && last[4];
+                    more    <= {2{valid[4] && last[4]}};
+                    m_data  <= results[127:96];
+                    waiting <= results[95:0];
+                end else if (m_ready) begin
+                    more    <= more - 1'b1;
+                    m_data  <= waiting[31:0];
+                    waiting <= waiting >> 32;
+                end
+                if (!rst_n) {m_valid, more} <= '0;
             end
         end
-    end
-    logic unused_first;
-    assign unused_first = &{1'b0, first, high_4};
+    endgenerate
 endmodule
 
 `default_nettype wire
