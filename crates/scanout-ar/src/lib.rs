@@ -15,6 +15,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "std")]
+pub mod calibration;
 pub mod contour;
 pub mod decode;
 pub mod detect;
