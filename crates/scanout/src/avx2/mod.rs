@@ -13,7 +13,7 @@
 //! | `project` | positions to screen vertices, 4 at a time | `ClipMatrix::apply`, `Viewport::project` |
 //! | `facing` | which of 8 triangles can be seen | `ObjectPass::triangles` |
 //! | `planes` | edges and planes of 8 triangles | `Triangle::new`, `Triangle::plane`, `TextureSetup::new` |
-//! | `strips` | their pixels, 8 side by side | `Target::fill_runs` |
+//! | `strips` | their pixels, 16 side by side | `Target::fill_runs` |
 //!
 //! The token [`Avx2`] is proof that the processor can; elsewhere, and without the feature `simd`, there is none.
 
@@ -46,8 +46,10 @@ use core::ops::Range;
 use crate::texture::Repeat565;
 use crate::transform::Vertex;
 
-/// How many lie side by side.
+/// How many triangles, or pixels, lie side by side.
 pub const EIGHT: usize = 8;
+/// Columns of a strip.
+pub const STRIP: usize = 2 * EIGHT;
 
 /// Which of eight triangles can be seen, bit by bit, and where.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,7 +88,7 @@ pub struct Source<'a> {
     pub gouraud: bool,
     /// The rows to be drawn.
     pub rows: (i32, i32),
-    /// Width of a row in pixels, at least 8.
+    /// Width of a row in pixels, at least [`STRIP`].
     pub width: i32,
 }
 
@@ -108,7 +110,7 @@ pub struct Planes {
 pub struct Triangles {
     /// Bits of those that are what this is for; the others must go the general way.
     pub ready: u32,
-    /// First column of the first strip: the triangle's, or eight columns before the right border.
+    /// First column of the first strip: the triangle's, or a strip's width before the right border.
     pub x: [i32; EIGHT],
     /// First column that may be covered, cut to the frame.
     pub left: [i32; EIGHT],
@@ -139,7 +141,7 @@ pub struct Pixels<'m> {
     pub colours: &'m mut [u16],
     /// Depths.
     pub depths: &'m mut [u16],
-    /// Width of a row, at least 8.
+    /// Width of a row, at least [`STRIP`].
     pub width: usize,
     /// The first row.
     pub top: i32,

@@ -4,7 +4,7 @@
 use core::arch::x86_64::*;
 
 use super::memory::{all_below, gather, gather_triangles, load, store};
-use super::{EIGHT, Planes, Source, Triangles};
+use super::{EIGHT, Planes, STRIP, Source, Triangles};
 use crate::texture::SUBTEXEL_BITS;
 
 /// Eight numbers: lanes 0 - 3 and 4 - 7.
@@ -112,11 +112,11 @@ pub fn set_up(source: &Source, indices: &[u32; EIGHT], out: &mut Triangles) {
     let (left, right) = (first_pixel(x_low), first_pixel(x_high));
     let (top, bottom) = (first_pixel(y_low), first_pixel(y_high));
 
-    // As `Triangle::is_tiny`: small, and (h + 1) (2 (w + 1) + 8) < 2047.
+    // As `Triangle::is_tiny`, for strips of sixteen columns: small, and (h + 1) (2 (w + 1) + 16) < 2047.
     let above = |v: __m256i, most: i32| _mm256_cmpgt_epi32(v, number(most));
     let (w, h) = (_mm256_sub_epi32(right, left), _mm256_sub_epi32(bottom, top));
     let rows = _mm256_add_epi32(h, number(1));
-    let columns = _mm256_add_epi32(_mm256_add_epi32(w, w), number(10));
+    let columns = _mm256_add_epi32(_mm256_add_epi32(w, w), number(2 + STRIP as i32));
     let reach = |low: __m256i, high: __m256i| {
         _mm256_max_epi32(_mm256_sub_epi32(_mm256_setzero_si256(), low), high)
     };
@@ -129,7 +129,7 @@ pub fn set_up(source: &Source, indices: &[u32; EIGHT], out: &mut Triangles) {
     let to = _mm256_min_epi32(right, number(source.width));
     let first_row = _mm256_max_epi32(top, number(source.rows.0));
     let last_row = _mm256_min_epi32(bottom, number(source.rows.1));
-    let column = _mm256_min_epi32(from, number(source.width - EIGHT as i32));
+    let column = _mm256_min_epi32(from, number(source.width - STRIP as i32));
     store(&mut out.x, column);
     store(&mut out.left, from);
     store(&mut out.right, to);
@@ -248,6 +248,10 @@ fn texture(
     let q_wide = q.map(|q| wide(q));
     let shifted = q.map(|q| _mm256_slli_epi32(q, 8));
     let mut odd = frame.planes(shifted.map(|q| wide(q)), shifted[0], &mut out.q);
+    // Reciprocals of everything between are below 2^31; the plane errs by far less than what this leaves.
+    let least = _mm256_min_epi32(_mm256_min_epi32(q[0], q[1]), q[2]);
+    let far = _mm256_cmpgt_epi32(number(1 << 17), least);
+    odd |= _mm256_movemask_ps(_mm256_castsi256_ps(far)) as u32;
     for (axis, uv) in uvs.into_iter().enumerate() {
         let low = _mm256_min_epi32(_mm256_min_epi32(uv[0], uv[1]), uv[2]);
         let repeats = _mm256_andnot_si256(number(0xffff), low);
@@ -294,7 +298,7 @@ fn texture(
 
 #[cfg(test)]
 mod tests {
-    use crate::avx2::{Avx2, EIGHT, Planes, Source, Triangles};
+    use crate::avx2::{Avx2, EIGHT, Planes, STRIP, Source, Triangles};
     use crate::interpolate::Plane;
     use crate::setup::Triangle;
     use crate::texture::{Repeat565, SUBTEXEL_BITS, Texels, Texture, TextureSetup};
@@ -381,7 +385,7 @@ mod tests {
                 if left >= right || top >= bottom {
                     continue;
                 }
-                let at = (left.min(WIDTH - EIGHT as i32), top);
+                let at = (left.min(WIDTH - STRIP as i32), top);
                 assert_eq!(got.x[i], at.0);
                 for (edge, planes) in t.edges.iter().zip(&got.edges) {
                     assert_eq!(planes.start[i] as i64, edge.at(at.0, at.1));
@@ -393,6 +397,7 @@ mod tests {
                     same(&got.colour[c], i, &plane, at, 0x8000);
                 }
                 let (q, _) = common_inverse_w(v);
+                assert!(q.iter().all(|&q| q >= 1 << 17));
                 same(&got.q, i, &t.plane(q.map(|q| q << 8)), at, 0);
                 let uv = [0, 1, 2].map(|k| uvs[3 * i + k]);
                 let setup = TextureSetup::new(&t, &texture, uv, q);

@@ -1,69 +1,148 @@
-//! Raster to output for tiny triangles: strips of eight columns, row by row, RGB565.
+//! Raster to output for tiny triangles: strips of sixteen columns, row by row, RGB565.
 //!
 //! ```text
-//!      strip 0   strip 1            A row of a strip, in 16-bit lanes:
-//!     +--------+--------+
-//!     |      _-|-_      |             e0 | e1 | e2 < 0       outside an edge
-//!     |   _--##|##-_    |             max(z, stored) = z     not nearer
-//!     |_--#####|####-_  |             either: keep what is stored
-//!     +--------+--------+
+//!      left half       right half
+//!     +---------------+---------------+       A row of a strip, in 16-bit lanes:
+//!     |          __--#|##__           |
+//!     |    __--#######|####__         |         e0 | e1 | e2 >= 0       inside all edges
+//!     |--#############|######__       |         max(z, stored) != z     nearer
+//!     |    ---########|########__     |         both: take the new one
+//!     |           ----|###########__  |
+//!     +---------------+---------------+
 //! ```
 //!
-//! Edge functions, depth and colours step from row to row by addition, which is exact. At the right border a strip begins further
-//! left, so that it lies in the row: what is drawn twice is not nearer the second time.
+//! Edge functions, depth and colours step from row to row by addition, which is exact. Colours are made for eight pixels at a time, only
+//! where one of them passes. At the right border a strip begins further left, so that it lies in the row: what is
+//! drawn twice is not nearer the second time.
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;
 
 use super::memory::load;
-use super::{EIGHT, Lanes, Pixels, Planes, Triangles};
+use super::{EIGHT, Lanes, Pixels, Planes, STRIP, Triangles};
 use crate::texture::{Repeat565, SUBTEXEL_BITS, integer_q, reciprocal};
 
-/// A plane on its way down a strip: the values of a row's eight pixels, and what to add for the next.
+/// A plane on its way down a strip: the values of the first eight pixels of a row, what to add a column and a row.
 #[derive(Clone, Copy)]
 struct Row {
     now: __m256i,
-    down: __m256i,
+    gx: __m256i,
+    gy: __m256i,
 }
 
 impl Row {
-    /// Lane `i` of some planes, from `steps` columns to the right on.
+    /// Before there is any.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    fn new(planes: &Planes, i: usize, steps: __m256i) -> Row {
-        let right = _mm256_mullo_epi32(_mm256_set1_epi32(planes.gx[i]), steps);
-        Row {
-            now: _mm256_add_epi32(_mm256_set1_epi32(planes.start[i]), right),
-            down: _mm256_set1_epi32(planes.gy[i]),
+    fn none() -> Row {
+        let zero = _mm256_setzero_si256();
+        Row { now: zero, gx: zero, gy: zero }
+    }
+
+    /// Lane `i` of some planes, `columns` from their first pixel.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    fn new(planes: &Planes, i: usize, columns: __m256i) -> Row {
+        let gx = _mm256_set1_epi32(planes.gx[i]);
+        let first = _mm256_mullo_epi32(gx, columns);
+        let now = _mm256_add_epi32(_mm256_set1_epi32(planes.start[i]), first);
+        Row { now, gx, gy: _mm256_set1_epi32(planes.gy[i]) }
+    }
+
+    /// The values of the eight pixels from a column on.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    fn from<W: Window>(&self, window: W) -> __m256i {
+        match window.columns() {
+            Some(columns) => _mm256_add_epi32(self.now, _mm256_mullo_epi32(self.gx, columns)),
+            None => self.now,
         }
     }
 
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     fn next(&mut self) {
-        self.now = _mm256_add_epi32(self.now, self.down);
+        self.now = _mm256_add_epi32(self.now, self.gy);
     }
 }
 
-/// 32-bit lanes that hold 16 bits, to 16-bit lanes.
+/// Which eight pixels of a row.
+trait Window: Copy {
+    /// The first one's column, in all lanes; `None` for the strip's first.
+    fn columns(self) -> Option<__m256i>;
+}
+
+/// The strip's first.
+#[derive(Clone, Copy)]
+struct First;
+
+impl Window for First {
+    #[inline(always)]
+    fn columns(self) -> Option<__m256i> {
+        None
+    }
+}
+
+/// From some column on.
+#[derive(Clone, Copy)]
+struct From(__m256i);
+
+impl Window for From {
+    #[inline(always)]
+    fn columns(self) -> Option<__m256i> {
+        Some(self.0)
+    }
+}
+
+/// Eight colours at a time.
+trait Eight {
+    /// RGB565; those that do not `pass` are any.
+    ///
+    /// # Safety
+    /// AVX2 and FMA are there.
+    unsafe fn eight<W: Window>(&self, pass: __m128i, window: W) -> __m128i;
+}
+
+/// Writes the pixels of a row that pass, eight side by side at most twice: the first half, and from the first one on that is left.
+///
+/// # Safety
+/// AVX2 and FMA are there; `row` points to sixteen pixels that can be written.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn pack(v: __m256i) -> __m128i {
-    _mm_packus_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1))
+unsafe fn paint<C: Eight>(colours: &C, pass: __m256i, bits: u32, row: *mut u16) {
+    let low = _mm256_castsi256_si128(pass);
+    // SAFETY: as the caller says; the array has 32 bytes, of which sixteen are read from at most the sixteenth on.
+    unsafe {
+        if bits >> 16 == 0 {
+            return write(low, colours.eight(low, First), row);
+        }
+        // In one go where they lie together, otherwise the left half and the right half.
+        let mut at = (bits.trailing_zeros() / 2) as usize;
+        if at < EIGHT && bits >> (2 * at + 16) != 0 {
+            write(low, colours.eight(low, First), row);
+            at = EIGHT;
+        }
+        let at = at.min(EIGHT);
+        let mut lanes = [0u16; STRIP];
+        _mm256_storeu_si256(lanes.as_mut_ptr().cast(), pass);
+        let pass = _mm_loadu_si128(lanes.as_ptr().add(at).cast());
+        let window = From(_mm256_set1_epi32(at as i32));
+        write(pass, colours.eight(pass, window), row.add(at));
+    }
 }
 
 /// The colours of a strip's rows.
-trait Colours: Sized {
-    /// Lane `i` of the triangles, from `steps` columns to the right of their first on.
+trait Colours {
+    /// Lane `i` of the triangles, `columns` from their first pixel.
     ///
     /// # Safety
     /// AVX2 and FMA are there.
-    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, steps: __m256i);
-    /// RGB565 of this row's pixels; those that `fail` need not be right.
+    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, columns: __m256i);
+    /// Writes this row's pixels that `pass`; `bits` has two for each.
     ///
     /// # Safety
-    /// AVX2 and FMA are there.
-    unsafe fn row(&self, fail: __m128i) -> __m128i;
+    /// AVX2 and FMA are there; `row` points to sixteen pixels that can be written.
+    unsafe fn paint(&self, pass: __m256i, bits: u32, row: *mut u16);
     /// To the next row.
     ///
     /// # Safety
@@ -71,10 +150,24 @@ trait Colours: Sized {
     unsafe fn next(&mut self);
 }
 
-/// One colour a triangle, encoded.
+/// Writes those of eight pixels that pass.
+///
+/// # Safety
+/// `at` points to eight pixels that can be written.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+unsafe fn write(pass: __m128i, colours: __m128i, at: *mut u16) {
+    // SAFETY: as the caller says; the instructions ask no alignment.
+    unsafe {
+        let before = _mm_loadu_si128(at.cast());
+        _mm_storeu_si128(at.cast(), _mm_blendv_epi8(before, colours, pass));
+    }
+}
+
+/// One colour a triangle.
 struct Flat<'a> {
     rgb: &'a [[u8; 3]; EIGHT],
-    now: __m128i,
+    now: __m256i,
 }
 
 impl Colours for Flat<'_> {
@@ -82,12 +175,16 @@ impl Colours for Flat<'_> {
     #[target_feature(enable = "avx2,fma")]
     unsafe fn begin(&mut self, _: &Triangles, i: usize, _: __m256i) {
         use crate::output::{PixelFormat, Rgb565};
-        self.now = _mm_set1_epi16(Rgb565::encode(self.rgb[i]) as i16);
+        self.now = _mm256_set1_epi16(Rgb565::encode(self.rgb[i]) as i16);
     }
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn row(&self, _: __m128i) -> __m128i {
-        self.now
+    unsafe fn paint(&self, pass: __m256i, _: u32, row: *mut u16) {
+        // SAFETY: sixteen pixels, as the caller says; the instructions ask no alignment.
+        unsafe {
+            let before = _mm256_loadu_si256(row.cast());
+            _mm256_storeu_si256(row.cast(), _mm256_blendv_epi8(before, self.now, pass));
+        }
     }
     #[inline]
     #[target_feature(enable = "avx2,fma")]
@@ -97,44 +194,78 @@ impl Colours for Flat<'_> {
 /// Colours interpolated.
 struct Gouraud([Row; 3]);
 
-impl Colours for Gouraud {
+impl Gouraud {
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, steps: __m256i) {
+    fn start(&mut self, triangles: &Triangles, i: usize, columns: __m256i) {
         let [r, g, b] = &triangles.colour;
-        self.0 = [Row::new(r, i, steps), Row::new(g, i, steps), Row::new(b, i, steps)];
+        self.0 = [Row::new(r, i, columns), Row::new(g, i, columns), Row::new(b, i, columns)];
     }
+
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn row(&self, _: __m128i) -> __m128i {
-        // Bits 16 - 23 are the channel; what is above them is a value just outside its range, which wraps.
-        let [r, g, b] = [self.0[0].now, self.0[1].now, self.0[2].now];
-        let r = _mm256_and_si256(_mm256_srli_epi32(r, 8), _mm256_set1_epi32(0xf800));
-        let g = _mm256_and_si256(_mm256_srli_epi32(g, 13), _mm256_set1_epi32(0x07e0));
-        let b = _mm256_and_si256(_mm256_srli_epi32(b, 19), _mm256_set1_epi32(0x001f));
-        pack(_mm256_or_si256(_mm256_or_si256(r, g), b))
-    }
-    #[inline]
-    #[target_feature(enable = "avx2,fma")]
-    unsafe fn next(&mut self) {
+    fn step(&mut self) {
         self.0[0].next();
         self.0[1].next();
         self.0[2].next();
     }
 }
 
-/// Channels in 16-bit lanes.
-trait Channels {
+impl Eight for Gouraud {
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn eight<W: Window>(&self, _: __m128i, window: W) -> __m128i {
+        // Bits 16 - 23 are the channel; what is above them is a value just outside its range, which wraps.
+        let [r, g, b] = &self.0;
+        let r = _mm256_srli_epi32(r.from(window), 8);
+        let g = _mm256_srli_epi32(g.from(window), 13);
+        let b = _mm256_srli_epi32(b.from(window), 19);
+        let r = _mm256_and_si256(r, _mm256_set1_epi32(0xf800));
+        let g = _mm256_and_si256(g, _mm256_set1_epi32(0x07e0));
+        let b = _mm256_and_si256(b, _mm256_set1_epi32(0x001f));
+        let v = _mm256_or_si256(_mm256_or_si256(r, g), b);
+        _mm_packus_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1))
+    }
+}
+
+impl Colours for Gouraud {
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, columns: __m256i) {
+        self.start(triangles, i, columns);
+    }
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn paint(&self, pass: __m256i, bits: u32, row: *mut u16) {
+        // SAFETY: the same demands.
+        unsafe { paint(self, pass, bits, row) }
+    }
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn next(&mut self) {
+        self.step();
+    }
+}
+
+/// Channels of eight colours, 0 - 255 in 16-bit lanes: r0-3 g0-3 r4-7 g4-7 and b0-3 0 b4-7 0.
+#[derive(Clone, Copy)]
+struct Channels {
+    rg: __m256i,
+    b: __m256i,
+}
+
+/// Where the colours come from that texels are multiplied by.
+trait Tint {
     /// See [`Colours::begin`].
     ///
     /// # Safety
     /// AVX2 and FMA are there.
-    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, steps: __m256i);
-    /// 0 - 255 each.
+    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, columns: __m256i);
+    /// Of eight pixels.
     ///
     /// # Safety
     /// AVX2 and FMA are there.
-    unsafe fn row(&self) -> [__m128i; 3];
+    unsafe fn channels<W: Window>(&self, window: W) -> Channels;
     /// To the next row.
     ///
     /// # Safety
@@ -142,44 +273,47 @@ trait Channels {
     unsafe fn next(&mut self);
 }
 
-impl Channels for Gouraud {
+impl Tint for Gouraud {
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, steps: __m256i) {
-        // SAFETY: the same demand.
-        unsafe { Colours::begin(self, triangles, i, steps) }
+    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, columns: __m256i) {
+        self.start(triangles, i, columns);
     }
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn row(&self) -> [__m128i; 3] {
+    unsafe fn channels<W: Window>(&self, window: W) -> Channels {
         let byte = _mm256_set1_epi32(0xff);
-        let channel = |v: &Row| pack(_mm256_and_si256(_mm256_srli_epi32(v.now, 16), byte));
-        [channel(&self.0[0]), channel(&self.0[1]), channel(&self.0[2])]
+        let channel = |row: &Row| _mm256_and_si256(_mm256_srli_epi32(row.from(window), 16), byte);
+        let [r, g, b] = &self.0;
+        Channels {
+            rg: _mm256_packus_epi32(channel(r), channel(g)),
+            b: _mm256_packus_epi32(channel(b), _mm256_setzero_si256()),
+        }
     }
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     unsafe fn next(&mut self) {
-        // SAFETY: the same demand.
-        unsafe { Colours::next(self) }
+        self.step();
     }
 }
 
-/// One colour a triangle, its channels.
-struct FlatChannels<'a> {
+/// One colour a triangle.
+struct FlatTint<'a> {
     rgb: &'a [[u8; 3]; EIGHT],
-    now: [__m128i; 3],
+    now: Channels,
 }
 
-impl Channels for FlatChannels<'_> {
+impl Tint for FlatTint<'_> {
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     unsafe fn begin(&mut self, _: &Triangles, i: usize, _: __m256i) {
-        let [r, g, b] = self.rgb[i].map(i16::from);
-        self.now = [_mm_set1_epi16(r), _mm_set1_epi16(g), _mm_set1_epi16(b)];
+        let [r, g, b] = self.rgb[i].map(|v| _mm256_set1_epi16(v as i16));
+        let zero = _mm256_setzero_si256();
+        self.now = Channels { rg: _mm256_unpacklo_epi64(r, g), b: _mm256_unpacklo_epi64(b, zero) };
     }
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn row(&self) -> [__m128i; 3] {
+    unsafe fn channels<W: Window>(&self, _: W) -> Channels {
         self.now
     }
     #[inline]
@@ -187,131 +321,135 @@ impl Channels for FlatChannels<'_> {
     unsafe fn next(&mut self) {}
 }
 
+/// Lanes as an array.
+#[inline]
+fn array(v: __m256i) -> [u32; EIGHT] {
+    // SAFETY: as large, and any bits are a value.
+    unsafe { core::mem::transmute::<__m256i, [u32; EIGHT]>(v) }
+}
+
 /// Texels times colours.
-struct Textured<'a, C> {
-    channels: C,
+struct Textured<'a, T> {
+    tint: T,
     texture: &'a Repeat565<'a>,
     q: Row,
     st: [Row; 2],
-    /// Shifts from products to whole texels.
+    /// Shifts from products to whole texels, at least 32.
     shift: [u32; 2],
 }
 
-impl<C> Textured<'_, C> {
-    /// The texels of a row one by one: where eight at a time would not be exact, or would read beyond the texture.
-    #[cold]
-    #[inline(never)]
-    fn one_by_one(&self, fail: __m128i) -> __m128i {
-        // SAFETY: each is as large as what is copied into it, and any bits are a value.
-        let (fail, q, st): ([i16; EIGHT], [u32; EIGHT], [[u32; EIGHT]; 2]) = unsafe {
-            (
-                core::mem::transmute::<__m128i, [i16; EIGHT]>(fail),
-                core::mem::transmute::<__m256i, [u32; EIGHT]>(self.q.now),
-                self.st.map(|row| core::mem::transmute::<__m256i, [u32; EIGHT]>(row.now)),
-            )
-        };
-        let shift = self.shift.map(|s| s - SUBTEXEL_BITS);
-        let texels: [u16; EIGHT] = core::array::from_fn(|i| {
-            if fail[i] != 0 {
-                return 0;
-            }
-            let r = reciprocal(integer_q(q[i]));
-            self.texture.at(shift, [st[0][i], st[1][i]], r)
-        });
-        // SAFETY: as above.
-        unsafe { core::mem::transmute::<[u16; EIGHT], __m128i>(texels) }
-    }
+/// Texels one by one: where a texture repeats, or four bytes at its last texel would be beyond it.
+#[cold]
+#[inline(never)]
+fn one_by_one(
+    texture: &Repeat565,
+    shift: [u32; 2],
+    pass: [u32; EIGHT],
+    q: [u32; EIGHT],
+    [s, t]: [[u32; EIGHT]; 2],
+) -> [u32; EIGHT] {
+    core::array::from_fn(|i| {
+        let r = || reciprocal(integer_q(q[i]));
+        let shift = shift.map(|s| s - SUBTEXEL_BITS);
+        if pass[i] != 0 { texture.at(shift, [s[i], t[i]], r()) as u32 } else { 0 }
+    })
+}
 
-    /// The texels of a row.
+impl<T: Tint> Textured<'_, T> {
+    /// The texels of eight pixels in the lower halves of 32-bit lanes; those that do not `pass` are any.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    fn texels(&self, fail: __m128i) -> __m128i {
+    fn texels<W: Window>(&self, pass: __m256i, window: W) -> __m256i {
         let number = |v: i32| _mm256_set1_epi32(v);
-        let fail_wide = _mm256_cvtepi16_epi32(fail);
-        let q = _mm256_srli_epi32(self.q.now, 8);
-        // r = floor((2^47 - 1) / q): below 2^32 for q above 2^15.
+        let q_plane = self.q.from(window);
+        let q = _mm256_srli_epi32(q_plane, 8);
+        // r = floor((2^47 - 1) / q): below 2^31 for q above 2^16, which setup has seen to.
         let all = _mm256_set1_pd(((1u64 << 47) - 1) as f64);
-        let magic = _mm256_set1_pd((1u64 << 52) as f64);
-        let reciprocal = |q: __m128i| {
-            let r = _mm256_floor_pd(_mm256_div_pd(all, _mm256_cvtepi32_pd(q)));
-            _mm256_castpd_si256(_mm256_add_pd(r, magic))
+        let reciprocal =
+            |q: __m128i| _mm256_cvttpd_epi32(_mm256_div_pd(all, _mm256_cvtepi32_pd(q)));
+        let low = reciprocal(_mm256_castsi256_si128(q));
+        let even = _mm256_set_m128i(reciprocal(_mm256_extracti128_si256(q, 1)), low);
+        let odd = _mm256_srli_epi64(even, 32);
+        let axis = |row: &Row, shift: u32| {
+            let v = row.from(window);
+            let half = _mm256_set1_epi64x(1 << (shift - SUBTEXEL_BITS - 1));
+            let rounded = |v: __m256i, r: __m256i| _mm256_add_epi64(_mm256_mul_epu32(v, r), half);
+            // Odd lanes end in the upper half of their 64 bits.
+            let low = _mm_cvtsi32_si128(shift as i32);
+            let high = _mm_cvtsi32_si128(shift as i32 - 32);
+            let a = _mm256_srl_epi64(rounded(v, even), low);
+            let b = _mm256_srl_epi64(rounded(_mm256_srli_epi64(v, 32), odd), high);
+            _mm256_blend_epi32(a, b, 0b1010_1010)
         };
-        let r = [reciprocal(_mm256_castsi256_si128(q)), reciprocal(_mm256_extracti128_si256(q, 1))];
-        let axis = |i: usize| {
-            let v = self.st[i].now;
-            let shift = _mm_cvtsi32_si128(self.shift[i] as i32);
-            let half = _mm256_set1_epi64x(1 << (self.shift[i] - SUBTEXEL_BITS - 1));
-            let texel = |v: __m128i, r: __m256i| {
-                let product = _mm256_mul_epu32(_mm256_cvtepu32_epi64(v), r);
-                let rounded = _mm256_add_epi64(product, half);
-                _mm256_castsi256_ps(_mm256_srl_epi64(rounded, shift))
-            };
-            let low = texel(_mm256_castsi256_si128(v), r[0]);
-            let high = texel(_mm256_extracti128_si256(v, 1), r[1]);
-            let mixed = _mm256_castps_pd(_mm256_shuffle_ps(low, high, 0b10_00_10_00));
-            _mm256_castpd_si256(_mm256_permute4x64_pd(mixed, 0b11_01_10_00))
-        };
-        let (x, y) = (axis(0), axis(1));
-        // Texel and reciprocal in range; where a texel wraps round, or may be the last, one by one.
-        let (width, height) = (self.texture.size[0] as i32, self.texture.size[1] as i32);
-        let right = |v: __m256i, n: i32| _mm256_cmpeq_epi32(_mm256_min_epu32(v, number(n - 1)), v);
+        let [s, t] = &self.st;
+        let (x, y) = (axis(s, self.shift[0]), axis(t, self.shift[1]));
+        let [width, height] = self.texture.size.map(|v| v as i32);
+        let texels = self.texture.texels.len().min((width * height) as usize);
         let index = _mm256_add_epi32(_mm256_mullo_epi32(y, number(width)), x);
-        let last = self.texture.texels.len().min(i32::MAX as usize) as i32 - 1;
-        let good = _mm256_and_si256(
-            _mm256_and_si256(right(x, width), right(y, height)),
-            _mm256_and_si256(
-                _mm256_cmpgt_epi32(number(last), index),
-                _mm256_cmpgt_epi32(q, number(1 << 15)),
-            ),
-        );
-        // All that count are good.
-        if _mm256_testc_si256(_mm256_or_si256(good, fail_wide), number(-1)) == 0 {
-            return self.one_by_one(fail);
+        let at_most =
+            |v: __m256i, most: i32| _mm256_cmpeq_epi32(_mm256_min_epu32(v, number(most)), v);
+        // A row of texels too far is an index too far. The last texel is left out: two are read.
+        let last = texels.saturating_sub(2) as i32;
+        let good = _mm256_and_si256(at_most(x, width - 1), at_most(index, last));
+        if texels < 2 || _mm256_testc_si256(good, pass) == 0 {
+            let st = [array(s.from(window)), array(t.from(window))];
+            let texels = one_by_one(self.texture, self.shift, array(pass), array(q_plane), st);
+            return load(&texels.map(|v| v as i32));
         }
-        let index = _mm256_andnot_si256(fail_wide, index);
-        // SAFETY: 0 <= index < last: two texels beginning at `index` are in the slice.
-        let pairs =
-            unsafe { _mm256_i32gather_epi32::<2>(self.texture.texels.as_ptr().cast(), index) };
-        pack(_mm256_and_si256(pairs, number(0xffff)))
+        // SAFETY: lanes that pass are at most the last but one, and others are not read.
+        unsafe {
+            let at = self.texture.texels.as_ptr().cast();
+            _mm256_mask_i32gather_epi32::<2>(_mm256_setzero_si256(), at, index, pass)
+        }
     }
 }
 
-impl<C: Channels> Colours for Textured<'_, C> {
+impl<T: Tint> Eight for Textured<'_, T> {
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, steps: __m256i) {
-        self.q = Row::new(&triangles.q, i, steps);
+    unsafe fn eight<W: Window>(&self, pass: __m128i, window: W) -> __m128i {
+        let texels = self.texels(_mm256_cvtepi16_epi32(pass), window);
+        // SAFETY: AVX2 and FMA are there.
+        let tint = unsafe { self.tint.channels(window) };
+        let channel = |mask: i32| _mm256_and_si256(texels, _mm256_set1_epi32(mask));
+        let both =
+            |r: i16, g: i16| _mm256_unpacklo_epi64(_mm256_set1_epi16(r), _mm256_set1_epi16(g));
+        // `widen565`: r8 = floor(r5 33 / 4), g8 = floor(g6 65 / 16), by the upper halves of products.
+        let rg = _mm256_packus_epi32(channel(0xf800), channel(0x07e0));
+        let rg = _mm256_mulhi_epu16(rg, both(33 << 3, 65 << 7));
+        let b = _mm256_packus_epi32(channel(0x001f), _mm256_setzero_si256());
+        let b = _mm256_mulhi_epu16(_mm256_slli_epi16(b, 11), _mm256_set1_epi16(33 << 3));
+        // `modulate`: t = a b + 128, (t + floor(t / 256)) / 256 = 257 t / 65536.
+        let times = |a: __m256i, b: __m256i| {
+            let t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), _mm256_set1_epi16(128));
+            _mm256_mulhi_epu16(t, _mm256_set1_epi16(257))
+        };
+        let (rg, b) = (times(rg, tint.rg), times(b, tint.b));
+        // To their places.
+        let rg = _mm256_mullo_epi16(_mm256_and_si256(rg, both(0xf8, 0xfc)), both(1 << 8, 1 << 3));
+        let rgb = _mm256_or_si256(rg, _mm256_srli_epi16(b, 3));
+        let rgb = _mm256_or_si256(rgb, _mm256_srli_si256(rg, 8));
+        _mm256_castsi256_si128(_mm256_permute4x64_epi64(rgb, 0b10_00))
+    }
+}
+
+impl<T: Tint> Colours for Textured<'_, T> {
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn begin(&mut self, triangles: &Triangles, i: usize, columns: __m256i) {
+        self.q = Row::new(&triangles.q, i, columns);
         let [s, t] = &triangles.st;
-        self.st = [Row::new(s, i, steps), Row::new(t, i, steps)];
+        self.st = [Row::new(s, i, columns), Row::new(t, i, columns)];
         self.shift = [triangles.shift[0][i] as u32, triangles.shift[1][i] as u32];
         // SAFETY: the same demand.
-        unsafe { self.channels.begin(triangles, i, steps) }
+        unsafe { self.tint.begin(triangles, i, columns) }
     }
-
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn row(&self, fail: __m128i) -> __m128i {
-        let texels = self.texels(fail);
-        let number = |v: i16| _mm_set1_epi16(v);
-        // As `widen565` and `modulate`: the exact quotient by 255, rounded.
-        let r = _mm_srli_epi16(texels, 11);
-        let g = _mm_and_si128(_mm_srli_epi16(texels, 5), number(63));
-        let b = _mm_and_si128(texels, number(31));
-        let r = _mm_or_si128(_mm_slli_epi16(r, 3), _mm_srli_epi16(r, 2));
-        let g = _mm_or_si128(_mm_slli_epi16(g, 2), _mm_srli_epi16(g, 4));
-        let b = _mm_or_si128(_mm_slli_epi16(b, 3), _mm_srli_epi16(b, 2));
-        // SAFETY: the same demand.
-        let colours = unsafe { self.channels.row() };
-        let times = |a: __m128i, b: __m128i| {
-            let t = _mm_add_epi16(_mm_mullo_epi16(a, b), number(128));
-            _mm_srli_epi16(_mm_add_epi16(t, _mm_srli_epi16(t, 8)), 8)
-        };
-        let (r, g, b) = (times(r, colours[0]), times(g, colours[1]), times(b, colours[2]));
-        let r = _mm_slli_epi16(_mm_and_si128(r, number(0xf8)), 8);
-        let g = _mm_slli_epi16(_mm_and_si128(g, number(0xfc)), 3);
-        _mm_or_si128(_mm_or_si128(r, g), _mm_srli_epi16(b, 3))
+    unsafe fn paint(&self, pass: __m256i, bits: u32, row: *mut u16) {
+        // SAFETY: the same demands.
+        unsafe { paint(self, pass, bits, row) }
     }
-
     #[inline]
     #[target_feature(enable = "avx2,fma")]
     unsafe fn next(&mut self) {
@@ -319,7 +457,7 @@ impl<C: Channels> Colours for Textured<'_, C> {
         self.st[0].next();
         self.st[1].next();
         // SAFETY: the same demand.
-        unsafe { self.channels.next() }
+        unsafe { self.tint.next() }
     }
 }
 
@@ -329,8 +467,8 @@ impl<C: Channels> Colours for Textured<'_, C> {
 fn draw<C: Colours>(triangles: &Triangles, lanes: Lanes, colours: &mut C, pixels: &mut Pixels) {
     let width = pixels.width;
     let len = pixels.colours.len().min(pixels.depths.len());
-    let count = load(&[0, 1, 2, 3, 4, 5, 6, 7]);
-    let columns = _mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7);
+    let eight = load(&[0, 1, 2, 3, 4, 5, 6, 7]);
+    let sixteen = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     for i in lanes {
         let (first, rows) = (triangles.x[i], triangles.rows[i]);
         let (mut left, right) = (triangles.left[i], triangles.right[i]);
@@ -339,23 +477,22 @@ fn draw<C: Colours>(triangles: &Triangles, lanes: Lanes, colours: &mut C, pixels
         }
         let row = (triangles.top[i] - pixels.top) as usize * width;
         while left < right {
-            let x = left.min(width as i32 - EIGHT as i32);
+            let x = left.min(width as i32 - STRIP as i32);
             let at = row + x as usize;
-            if at + (rows as usize - 1) * width + EIGHT > len {
+            if at + (rows as usize - 1) * width + STRIP > len {
                 return;
             }
-            // SAFETY: the strip's eight pixels of each row, as just tested, lie in both slices.
+            // SAFETY: the strip's sixteen pixels of each row, as just tested, lie in both slices.
             unsafe {
                 let colour = pixels.colours.as_mut_ptr().add(at);
                 let depth = pixels.depths.as_mut_ptr().add(at);
-                let steps = x - first;
-                let wide = _mm256_add_epi32(count, _mm256_set1_epi32(steps));
-                let columns = _mm_add_epi16(columns, _mm_set1_epi16(steps as i16));
-                colours.begin(triangles, i, wide);
-                let z = Row::new(&triangles.depth, i, wide);
+                let columns = _mm256_add_epi32(eight, _mm256_set1_epi32(x - first));
+                colours.begin(triangles, i, columns);
+                let z = Row::new(&triangles.depth, i, columns);
+                let columns = _mm256_add_epi16(sixteen, _mm256_set1_epi16((x - first) as i16));
                 strip(triangles, i, columns, z, colours, colour, depth, rows, width);
             }
-            left += EIGHT as i32;
+            left += STRIP as i32;
         }
     }
 }
@@ -363,14 +500,14 @@ fn draw<C: Colours>(triangles: &Triangles, lanes: Lanes, colours: &mut C, pixels
 /// Draws one strip.
 ///
 /// # Safety
-/// `colour` and `depth` point to eight pixels that can be written, and so do they `width` further on, `rows` times in all.
+/// `colour` and `depth` point to sixteen pixels that can be written, and so do they `width` further on, `rows` times in all.
 #[allow(clippy::too_many_arguments)]
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 unsafe fn strip<C: Colours>(
     triangles: &Triangles,
     i: usize,
-    columns: __m128i,
+    columns: __m256i,
     mut z: Row,
     colours: &mut C,
     mut colour: *mut u16,
@@ -379,37 +516,39 @@ unsafe fn strip<C: Colours>(
     width: usize,
 ) {
     let edge = |e: &Planes| {
-        let right = _mm_mullo_epi16(_mm_set1_epi16(e.gx[i] as i16), columns);
-        _mm_add_epi16(_mm_set1_epi16(e.start[i] as i16), right)
+        let right = _mm256_mullo_epi16(_mm256_set1_epi16(e.gx[i] as i16), columns);
+        _mm256_add_epi16(_mm256_set1_epi16(e.start[i] as i16), right)
     };
-    let down = |e: &Planes| _mm_set1_epi16(e.gy[i] as i16);
+    let down = |e: &Planes| _mm256_set1_epi16(e.gy[i] as i16);
     let [e0, e1, e2] = &triangles.edges;
     let (d0, d1, d2) = (down(e0), down(e1), down(e2));
     let (mut e0, mut e1, mut e2) = (edge(e0), edge(e1), edge(e2));
+    let z_right = _mm256_slli_epi32(z.gx, 3);
     let mut rest = rows;
     loop {
-        // SAFETY: eight pixels, as the caller says.
-        let stored = unsafe { _mm_loadu_si128(depth.cast()) };
-        let new = pack(_mm256_srli_epi32(z.now, 16));
-        let behind = _mm_cmpeq_epi16(_mm_max_epu16(new, stored), new);
-        let outside = _mm_srai_epi16(_mm_or_si128(_mm_or_si128(e0, e1), e2), 15);
-        let fail = _mm_or_si128(behind, outside);
-        if _mm_test_all_ones(fail) == 0 {
+        // SAFETY: sixteen pixels, as the caller says.
+        let stored = unsafe { _mm256_loadu_si256(depth.cast()) };
+        let (left, right) = (z.now, _mm256_add_epi32(z.now, z_right));
+        let new = _mm256_packus_epi32(_mm256_srli_epi32(left, 16), _mm256_srli_epi32(right, 16));
+        let new = _mm256_permute4x64_epi64(new, 0b11_01_10_00);
+        let behind = _mm256_cmpeq_epi16(_mm256_max_epu16(new, stored), new);
+        let edges = _mm256_or_si256(_mm256_or_si256(e0, e1), e2);
+        let pass = _mm256_andnot_si256(behind, _mm256_cmpgt_epi16(edges, _mm256_set1_epi16(-1)));
+        let bits = _mm256_movemask_epi8(pass) as u32;
+        if bits != 0 {
             // SAFETY: as above.
             unsafe {
-                _mm_storeu_si128(depth.cast(), _mm_blendv_epi8(new, stored, fail));
-                let before = _mm_loadu_si128(colour.cast());
-                let after = _mm_blendv_epi8(colours.row(fail), before, fail);
-                _mm_storeu_si128(colour.cast(), after);
+                _mm256_storeu_si256(depth.cast(), _mm256_blendv_epi8(stored, new, pass));
+                colours.paint(pass, bits, colour);
             }
         }
         rest -= 1;
         if rest == 0 {
             return;
         }
-        e0 = _mm_add_epi16(e0, d0);
-        e1 = _mm_add_epi16(e1, d1);
-        e2 = _mm_add_epi16(e2, d2);
+        e0 = _mm256_add_epi16(e0, d0);
+        e1 = _mm256_add_epi16(e1, d1);
+        e2 = _mm256_add_epi16(e2, d2);
         z.next();
         // SAFETY: AVX2 is there; there is another row, as the caller says.
         unsafe {
@@ -420,22 +559,16 @@ unsafe fn strip<C: Colours>(
     }
 }
 
-#[inline]
-#[target_feature(enable = "avx2,fma")]
-fn no_row() -> Row {
-    Row { now: _mm256_setzero_si256(), down: _mm256_setzero_si256() }
-}
-
 /// Triangles of one colour each.
 #[target_feature(enable = "avx2,fma")]
 pub fn flat(triangles: &Triangles, lanes: Lanes, rgb: &[[u8; 3]; EIGHT], pixels: &mut Pixels) {
-    draw(triangles, lanes, &mut Flat { rgb, now: _mm_setzero_si128() }, pixels);
+    draw(triangles, lanes, &mut Flat { rgb, now: _mm256_setzero_si256() }, pixels);
 }
 
 /// Triangles with a colour at each vertex.
 #[target_feature(enable = "avx2,fma")]
 pub fn gouraud(triangles: &Triangles, lanes: Lanes, pixels: &mut Pixels) {
-    draw(triangles, lanes, &mut Gouraud([no_row(); 3]), pixels);
+    draw(triangles, lanes, &mut Gouraud([Row::none(); 3]), pixels);
 }
 
 /// Textured triangles, with one colour each or one at each vertex.
@@ -447,15 +580,16 @@ pub fn textured(
     flat: Option<&[[u8; 3]; EIGHT]>,
     pixels: &mut Pixels,
 ) {
-    let (q, st, shift) = (no_row(), [no_row(); 2], [SUBTEXEL_BITS + 1; 2]);
+    let (q, st, shift) = (Row::none(), [Row::none(); 2], [32; 2]);
     match flat {
         Some(rgb) => {
-            let channels = FlatChannels { rgb, now: [_mm_setzero_si128(); 3] };
-            draw(triangles, lanes, &mut Textured { channels, texture, q, st, shift }, pixels);
+            let zero = _mm256_setzero_si256();
+            let tint = FlatTint { rgb, now: Channels { rg: zero, b: zero } };
+            draw(triangles, lanes, &mut Textured { tint, texture, q, st, shift }, pixels);
         }
         None => {
-            let channels = Gouraud([no_row(); 3]);
-            draw(triangles, lanes, &mut Textured { channels, texture, q, st, shift }, pixels);
+            let tint = Gouraud([Row::none(); 3]);
+            draw(triangles, lanes, &mut Textured { tint, texture, q, st, shift }, pixels);
         }
     }
 }
@@ -468,7 +602,7 @@ mod tests {
     use crate::shade::modulate;
     use crate::texture::{Texels, Texture};
 
-    /// A row of texels at any 1/w, also where one reciprocal does not fit 32 bits, a texture repeats or its last texel is hit.
+    /// Rows of texels, also where a texture repeats or its last texel is hit.
     #[test]
     fn a_row_of_texels_is_one_at_a_time() {
         let Some(avx2) = Avx2::detect() else { return };
@@ -483,13 +617,13 @@ mod tests {
             let used = &texels[..size.0 as usize * size.1 as usize];
             let texture = Texture::new(size.0, size.1, Texels::Rgb565(used)).unwrap();
             let texture = Repeat565::new(&texture).unwrap();
-            let q = [1 << 9, 1 << 20, 1 << 24, 1 << 31][case / 4 % 4];
             let mut t = Triangles { ready: 1, ..Triangles::default() };
-            (t.right[0], t.rows[0]) = (EIGHT as i32, 1);
-            (t.q.start[0], t.q.gx[0]) = (random(q / 2) as i32, random(q / 16) as i32);
+            (t.right[0], t.rows[0]) = (STRIP as i32, 1);
+            let q = [1 << 20, 1 << 30][case / 4 % 2];
+            (t.q.start[0], t.q.gx[0]) = ((1 << 24) + random(q) as i32, random(q / 16) as i32);
             for axis in 0..2 {
                 (t.st[axis].start[0], t.st[axis].gx[0]) =
-                    (random(1 << 30) as i32, random(1 << 27) as i32);
+                    (random(1 << 30) as i32, random(1 << 26) as i32);
                 t.shift[axis][0] = 40 + random(20) as i32;
             }
             let rgb = [(); 3].map(|()| random(256) as u8);
@@ -501,13 +635,13 @@ mod tests {
                 texture: Some(texture),
                 gouraud: false,
                 rows: (0, 1),
-                width: EIGHT as i32,
+                width: STRIP as i32,
             };
-            let (mut colours, mut depths) = ([0; EIGHT], [u16::MAX; EIGHT]);
+            let (mut colours, mut depths) = ([0; STRIP], [u16::MAX; STRIP]);
             let mut pixels =
-                Pixels { colours: &mut colours, depths: &mut depths, width: EIGHT, top: 0 };
+                Pixels { colours: &mut colours, depths: &mut depths, width: STRIP, top: 0 };
             avx2.draw(&source, &t, 0..1, &[rgb; EIGHT], &mut pixels);
-            assert_eq!(depths, [0; EIGHT]);
+            assert_eq!(depths, [0; STRIP]);
             let shift = [0, 1].map(|axis| t.shift[axis][0] as u32 - SUBTEXEL_BITS);
             for (i, got) in colours.into_iter().enumerate() {
                 let at = |p: &Planes| (p.start[0] + i as i32 * p.gx[0]) as u32;

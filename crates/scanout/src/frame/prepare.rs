@@ -103,6 +103,11 @@ impl<'a> Frame<'a> {
                 index,
                 clip: &state.clip,
                 avx2,
+                whole: match (object.mode, object.mesh.normals) {
+                    (Mode::Flat, _) => true,
+                    (Mode::Gouraud, normals) => !matches!(normals, Normals::Vertex(_)),
+                    _ => false,
+                },
             }
             .run(own, &mut list)?;
         }
@@ -158,6 +163,13 @@ fn check(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
         {
             return Err(PrepareError::Lengths { object: index });
         }
+        // The greatest first, which is quick; then, where that is too great, whose it is.
+        let most = mesh.uv_triangles.as_flattened().iter().fold(0, |most, &t| t.max(most));
+        if most as usize >= mesh.uvs.len() && !mesh.uv_triangles.is_empty() {
+            let beyond = |uvs: &[u16; 3]| uvs.iter().any(|&t| t as usize >= mesh.uvs.len());
+            let element = mesh.uv_triangles.iter().position(beyond).unwrap_or(0);
+            return Err(PrepareError::Index { object: index, element });
+        }
         if let Some(texture) = object.material.texture {
             texture.check().map_err(|error| PrepareError::Texture { object: index, error })?;
         }
@@ -202,6 +214,8 @@ struct ObjectPass<'a> {
     index: usize,
     clip: &'a ClipMatrix,
     avx2: Option<Avx2>,
+    /// Triangles are lit as a whole.
+    whole: bool,
 }
 
 impl ObjectPass<'_> {
@@ -297,7 +311,7 @@ impl ObjectPass<'_> {
                 rest &= rest - 1;
                 let rows = (seen.top[k] as i16, seen.bottom[k] as i16);
                 let facing = if seen.back >> k & 1 == 0 { Facing::Front } else { Facing::Back };
-                self.keep(first + k, kind as u8, rows, facing, lighting, list)?;
+                self.keep(first + k, kind as u8, rows, facing, lighting, list);
                 if lit_later {
                     mark(vertices, triangles[first + k]);
                 }
@@ -326,7 +340,7 @@ impl ObjectPass<'_> {
                 return Err(PrepareError::Index { object: self.index, element: i });
             };
             if (a.flags | b.flags | c.flags) & CLIP != 0 {
-                self.keep_clipped(i, a.flags & b.flags & c.flags, kind, lighting, list)?;
+                self.keep_clipped(i, a.flags & b.flags & c.flags, kind, lighting, list);
                 if lit_later {
                     mark(vertices, triangle);
                 }
@@ -341,7 +355,7 @@ impl ObjectPass<'_> {
             let high = [a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y)];
             match self.rows(low, high) {
                 Some(rows) => {
-                    self.keep(i, kind as u8, rows, facing(area), lighting, list)?;
+                    self.keep(i, kind as u8, rows, facing(area), lighting, list);
                     if lit_later {
                         mark(vertices, triangle);
                     }
@@ -362,29 +376,29 @@ impl ObjectPass<'_> {
         kind: Kind,
         lighting: &Lighting,
         list: &mut List,
-    ) -> Result<(), PrepareError> {
+    ) {
         let mesh = self.object.mesh;
         let triangle = mesh.triangles[index];
         if all & (NEAR | FAR) != 0 {
             list.stats.outside += 1;
-            return Ok(());
+            return;
         }
         let corners = triangle.map(|c| self.clip.apply(mesh.positions[c as usize]));
         let facing = facing_in_clip_space(&corners);
         if facing == Facing::Edge || (facing == Facing::Back && !self.object.material.two_sided) {
             list.stats.back_facing += 1;
-            return Ok(());
+            return;
         }
         let Some(rows) = self.clipped_rows(triangle) else {
             list.stats.outside += 1;
-            return Ok(());
+            return;
         };
         list.stats.clipped += 1;
-        self.keep(index, kind as u8 | CLIPPED, rows, facing, lighting, list)
+        self.keep(index, kind as u8 | CLIPPED, rows, facing, lighting, list);
     }
 
     /// Lists a triangle, lit if it is lit as a whole.
-    #[inline(never)]
+    #[inline]
     fn keep(
         &self,
         index: usize,
@@ -393,32 +407,16 @@ impl ObjectPass<'_> {
         facing: Facing,
         lighting: &Lighting,
         list: &mut List,
-    ) -> Result<(), PrepareError> {
-        let mesh = self.object.mesh;
-        if let Some(uvs) = mesh.uv_triangles.get(index)
-            && uvs.iter().any(|&t| t as usize >= mesh.uvs.len())
-        {
-            return Err(PrepareError::Index { object: self.index, element: index });
-        }
+    ) {
         let back = facing == Facing::Back;
-        let rgb = match (self.object.mode, mesh.normals) {
-            (Mode::Hidden | Mode::Phong, _) | (Mode::Gouraud, Normals::Vertex(_)) => [0; 3],
-            _ => self.face_colour(index, back, lighting),
-        };
+        let rgb = if self.whole { self.face_colour(index, back, lighting) } else { [0; 3] };
         let tag = tag | if back { BACK } else { 0 };
-        list.push(Primitive {
-            index: index as u32,
-            top,
-            bottom,
-            object: self.index as u16,
-            rgb,
-            tag,
-        });
-        Ok(())
+        let object = self.index as u16;
+        list.push(Primitive { index: index as u32, top, bottom, object, rgb, tag });
     }
 
     /// The colour of a triangle that is lit as a whole: the mean of its corners' colours, lit at their centre.
-    #[inline]
+    #[inline(never)]
     fn face_colour(&self, index: usize, back: bool, lighting: &Lighting) -> [u8; 3] {
         let mesh = self.object.mesh;
         let triangle = mesh.triangles[index];

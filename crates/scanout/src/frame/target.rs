@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::Traversal;
 use super::fragment::Shader;
-use crate::avx2::{Avx2, EIGHT, Pixels};
+use crate::avx2::{Avx2, Pixels, STRIP};
 use crate::depth;
 use crate::interpolate::Plane;
 use crate::lanes::{self, LANES, U16x8, U32x8};
@@ -100,9 +100,9 @@ impl<F: PixelFormat> Target<'_, F> {
         if self.traversal == Traversal::Spans { Avx2::detect() } else { None }
     }
 
-    /// The memory as RGB565 without dither, at least eight pixels wide, for AVX2; `None` where it is not.
+    /// The memory as RGB565 without dither, at least a strip wide, for AVX2; `None` where it is not.
     pub(super) fn pixels(&mut self) -> Option<(Avx2, Pixels<'_>)> {
-        let avx2 = self.avx2().filter(|_| !self.dither && self.width >= EIGHT)?;
+        let avx2 = self.avx2().filter(|_| !self.dither && self.width >= STRIP)?;
         let (width, top) = (self.width, self.rows.start);
         let colours = F::rgb565(self.colour)?;
         Some((avx2, Pixels { colours, depths: self.depth, width, top }))
