@@ -63,10 +63,10 @@ module clip (
     logic                guard, minus;
     assign guard = plane[2:1] != 2'd0;
     assign minus = plane[0] || plane == 3'd0;
-    assign first = !count[0] ? distance : plane == 3'd0 ? '1 : '0;
+    assign first = count[0] ? {V{plane == 3'd0}} : distance;
     always_comb begin
         if (count[0]) second = guard ? {word[31], word, 13'b0} : V'(word);
-        else second = minus ? ~V'(word) : V'(word);
+        else second = V'(word) ^ {V{minus}};
     end
     assign sum = first + second + V'(signed'({1'b0, !count[0] && minus}));
 
