@@ -28,6 +28,7 @@ Usage: qemu-system-riscv64 ... | monitor [--hashes] [--show terminal|window] [--
   --expect OBJ      the frames must be system B's scene with this model, as the PC draws it; with
   --texture PPM     this picture, and
   --scale NUMBER    this size (default 1); needs --frames, which must all come
+  --list            print what should come, a line a frame, and read nothing
   --pause SECONDS   take nothing for so long after the first frame (tests a display that stops answering)
 
 Exit codes: 0 done, 1 the bytes are not what a display understands or a frame differs, 2 wrong option.
@@ -43,6 +44,7 @@ struct Options {
     expect: Option<PathBuf>,
     texture: Option<PathBuf>,
     scale: f64,
+    list: bool,
 }
 
 fn main() -> ExitCode {
@@ -86,6 +88,7 @@ fn options(mut words: impl Iterator<Item = String>) -> Result<Option<Options>, S
         let mut value = || words.next().ok_or(format!("{word} wants a value"));
         match word.as_str() {
             "--hashes" => options.hashes = true,
+            "--list" => options.list = true,
             "--show" => options.show = Some(show::How::parse(&value()?)?),
             "--png" => options.png = Some(value()?),
             "--expect" => options.expect = Some(value()?.into()),
@@ -126,6 +129,12 @@ fn run(options: Options, mut screen: Option<show::Screen>) -> Result<(), String>
         }
         None => None,
     };
+    if options.list {
+        for (index, hash) in expected.iter().flatten().enumerate() {
+            println!("{} {hash:016x}", index + 1);
+        }
+        return Ok(());
+    }
     'all: loop {
         let count = input.read(&mut bytes).map_err(|error| format!("standard input: {error}"))?;
         if count == 0 {

@@ -1,0 +1,152 @@
+//! Clocks, pins, the display, frames.
+
+use core::cell::UnsafeCell;
+use core::fmt::Write as _;
+
+use embedded_hal_bus::spi::ExclusiveDevice;
+use mipidsi::Builder;
+use mipidsi::models::ST7789;
+use mipidsi::options::{Orientation, Rotation};
+use player::scene::{self, HEIGHT, Model, Placement, WIDTH};
+use rp2040_hal::clocks::init_clocks_and_plls;
+use rp2040_hal::fugit::RateExtU32;
+use rp2040_hal::gpio::{FunctionSpi, FunctionUart, Pins};
+use rp2040_hal::spi::Spi;
+use rp2040_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
+use rp2040_hal::{Clock, Sio, Timer, Watchdog, pac};
+use scanout::frame::{Frame, ObjectState, Primitive, Settings, Store};
+use scanout::math::Q16;
+use scanout::transform::Vertex;
+use scanout_assets::bake::{Aligned, BakeError, read};
+use scanout_display::flush::show;
+use scanout_display::spi::SpiLink;
+use scanout_display::window::Area;
+
+#[unsafe(link_section = ".boot2")]
+#[used]
+static BOOT2: [u8; 256] = rp2040_boot2::BOOT_LOADER_GENERIC_03H;
+
+/// The Pico's crystal, Hz.
+const CRYSTAL: u32 = 12_000_000;
+/// Frames of a model before the other one comes.
+const FRAMES: u32 = if cfg!(feature = "short") { 2 } else { 90 };
+/// Lines of a band.
+const LINES: usize = 4;
+/// Model A's positions and triangles.
+const MOST: (usize, usize) = (400, 800);
+
+static MODELS: [(&Aligned<[u8]>, Q16); 2] = [
+    (&Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/c.mesh"))), Q16::from_ratio(9, 10)),
+    (&Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/a.mesh"))), Q16::from_ratio(35, 100)),
+];
+
+struct Memory {
+    vertices: [Vertex; MOST.0],
+    primitives: [Primitive; MOST.1],
+    colour: [u16; WIDTH as usize * LINES],
+    depth: [u16; WIDTH as usize * LINES],
+}
+
+struct Once(UnsafeCell<Memory>);
+
+// SAFETY: `main` alone takes it, once; the second core sleeps.
+unsafe impl Sync for Once {}
+
+// SAFETY: integers alone, for each of which 0 is a value; a `Primitive` has no other constant.
+static MEMORY: Once =
+    Once(UnsafeCell::new(unsafe { core::mem::MaybeUninit::zeroed().assume_init() }));
+
+#[rp2040_hal::entry]
+fn main() -> ! {
+    // SAFETY: taken here, the first time and the only one.
+    let (mut chip, memory) = unsafe { (pac::Peripherals::steal(), &mut *MEMORY.0.get()) };
+    let mut watchdog = Watchdog::new(chip.WATCHDOG);
+    let clocks = init_clocks_and_plls(
+        CRYSTAL,
+        chip.XOSC,
+        chip.CLOCKS,
+        chip.PLL_SYS,
+        chip.PLL_USB,
+        &mut chip.RESETS,
+        &mut watchdog,
+    );
+    // Without its crystal there is no UART to say so.
+    let Ok(clocks) = clocks else { sleep() };
+    let mut timer = Timer::new(chip.TIMER, &mut chip.RESETS, &clocks);
+    let sio = Sio::new(chip.SIO);
+    let pins = Pins::new(chip.IO_BANK0, chip.PADS_BANK0, sio.gpio_bank0, &mut chip.RESETS);
+
+    let wires =
+        (pins.gpio0.into_function::<FunctionUart>(), pins.gpio1.into_function::<FunctionUart>());
+    let uart = UartConfig::new(115_200.Hz(), DataBits::Eight, None, StopBits::One);
+    let clock = clocks.peripheral_clock.freq();
+    let Ok(mut serial) =
+        UartPeripheral::new(chip.UART0, wires, &mut chip.RESETS).enable(uart, clock)
+    else {
+        sleep()
+    };
+
+    let wires =
+        (pins.gpio19.into_function::<FunctionSpi>(), pins.gpio18.into_function::<FunctionSpi>());
+    let bus = Spi::<_, _, _, 8>::new(chip.SPI0, wires).init(
+        &mut chip.RESETS,
+        clock,
+        62_500_000.Hz(),
+        embedded_hal::spi::MODE_0,
+    );
+    let Ok(device) = ExclusiveDevice::new_no_delay(bus, pins.gpio17.into_push_pull_output());
+    let link = SpiLink::new(device, pins.gpio16.into_push_pull_output());
+    let display = Builder::new(ST7789, link)
+        .reset_pin(pins.gpio20.into_push_pull_output())
+        .orientation(Orientation::new().rotate(Rotation::Deg90))
+        .init(&mut timer);
+    let Ok(display) = display else {
+        let _ = writeln!(serial, "fault: the display can't be started; check its wires");
+        sleep()
+    };
+    let (mut link, ..) = display.release();
+
+    loop {
+        for (bytes, scale) in MODELS {
+            let model = match baked(&bytes.0) {
+                Ok(model) => model,
+                Err(error) => {
+                    let _ = writeln!(serial, "fault: {error}");
+                    sleep()
+                }
+            };
+            for number in 0..FRAMES {
+                let shown = scene::with_scene(&model, scale, number, |scene| {
+                    let mut objects = [ObjectState::default()];
+                    let Memory { vertices, primitives, colour, depth } = &mut *memory;
+                    let store = Store { vertices, primitives, objects: &mut objects };
+                    let frame = Frame::prepare(scene, Settings::new(WIDTH, HEIGHT), store).ok()?;
+                    show(&frame, &mut link, Area::LANDSCAPE, colour, depth, |_| ()).ok()
+                });
+                let line =
+                    if shown.is_some() { "frame" } else { "fault: the frame could not be shown" };
+                let _ = writeln!(serial, "{line}");
+            }
+        }
+    }
+}
+
+/// The model of baked bytes.
+fn baked(bytes: &'static [u8]) -> Result<Model<'static>, BakeError> {
+    let baked = read(bytes)?;
+    let part = baked.part(0).ok_or(BakeError::Magic)?;
+    let texture = part.texture.and_then(|index| baked.texture(index));
+    let placement = Placement { scale: baked.scale(), offset: baked.offset() };
+    Ok(Model { mesh: part.mesh, texture, placement })
+}
+
+fn sleep() -> ! {
+    loop {
+        rp2040_hal::arch::wfi();
+    }
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    sleep()
+}
