@@ -15,6 +15,7 @@ pub mod monitor;
 mod random;
 pub mod register_map;
 pub mod registers;
+pub mod spin;
 mod stream;
 pub mod tmds;
 

@@ -1,0 +1,271 @@
+//! `gpu.sv`: a model is written over Wishbone, and the pictures that come out of the pins are the library's frames.
+
+mod common;
+
+use std::path::Path;
+
+use common::{difference, pack};
+use scanout::camera::{Camera, projection};
+use scanout::frame::{Frame, Needed, ObjectState, Primitive, Settings, Store};
+use scanout::math::{Angle, Mat4, Q16, Vec3};
+use scanout::mesh::Mesh;
+use scanout::output::Rgb888;
+use scanout::scene::{Material, Mode, Object, Scene};
+use scanout::transform::{ClipMatrix, Vertex};
+use scanout_assets::{LoadOptions, load};
+use scanout_cosim::monitor::{self, Monitor, Seen};
+use scanout_cosim::register_map as map;
+use scanout_cosim::spin::Spin;
+use scanout_cosim::{Model, Port};
+
+const INK: [u8; 3] = [255, 255, 255];
+
+/// A GPU on one clock, its host and its monitor.
+struct Gpu {
+    model: Model,
+    clocks: [Port; 2],
+    pins: [Port; 5],
+    monitor: Monitor,
+    seen: Vec<Seen>,
+}
+
+impl Gpu {
+    fn new(name: &str) -> Gpu {
+        let model = Model::new(name);
+        let mut gpu = Gpu {
+            clocks: ["clk", "clk_pixel"].map(|n| model.port(n)),
+            pins: ["hsync", "vsync", "r", "g", "b"].map(|n| model.port(n)),
+            monitor: Monitor::new(monitor::Mode::VGA),
+            seen: Vec::new(),
+            model,
+        };
+        for level in [0, 1] {
+            for name in ["rst_n", "pixel_rst_n"] {
+                let port = gpu.model.port(name);
+                gpu.model.set(port, level);
+            }
+            (0..4).for_each(|_| gpu.clock());
+        }
+        gpu
+    }
+
+    fn clock(&mut self) {
+        for level in [0, 1] {
+            for port in self.clocks {
+                self.model.set(port, level);
+            }
+            self.model.eval();
+        }
+        let [hsync, vsync, r, g, b] = self.pins.map(|p| self.model.get(p) as u8);
+        self.seen.extend(self.monitor.clock(hsync == 1, vsync == 1, [r, g, b]));
+    }
+
+    fn bus(&mut self, address: u32, write: Option<u32>) -> u32 {
+        let set = |model: &mut Model, name: &str, value: u32| {
+            let port = model.port(name);
+            model.set(port, value);
+        };
+        for (name, value) in [
+            ("wb_cyc", 1),
+            ("wb_stb", 1),
+            ("wb_we", write.is_some().into()),
+            ("wb_adr", address),
+            ("wb_sel", 15),
+            ("wb_dat_w", write.unwrap_or(0)),
+        ] {
+            set(&mut self.model, name, value);
+        }
+        let [ack, err, data] = ["wb_ack", "wb_err", "wb_dat_r"].map(|n| self.model.port(n));
+        self.clock();
+        assert_eq!((self.model.get(ack), self.model.get(err)), (1, 0), "0x{address:x}");
+        let word = self.model.get(data) as u32;
+        set(&mut self.model, "wb_cyc", 0);
+        set(&mut self.model, "wb_stb", 0);
+        self.clock();
+        word
+    }
+
+    fn write(&mut self, address: u32, word: u32) {
+        self.bus(address, Some(word));
+    }
+
+    fn read(&mut self, address: u32) -> u32 {
+        self.bus(address, None)
+    }
+
+    /// Stops, and waits until nothing is being drawn.
+    fn stop(&mut self, spin: bool) {
+        let spin = u32::from(spin) << map::CONTROL_SPIN_LSB;
+        self.write(map::CONTROL, spin);
+        while self.read(map::STATUS) & map::STATUS_DRAWING_MASK != 0 {}
+    }
+
+    fn load(&mut self, mesh: &Mesh) {
+        assert!(mesh.positions.len() <= 1024 && mesh.edges.len() <= 4096);
+        for (i, p) in (0..).zip(mesh.positions) {
+            let [x, y, z] = p.map(|v| u32::from(v as u16));
+            self.write(map::VERTEX + 2 * i + 1, z);
+            self.write(map::VERTEX + 2 * i, y << 16 | x);
+        }
+        for (i, e) in (0..).zip(mesh.edges) {
+            self.write(map::EDGE + i, u32::from(e[1]) << 16 | u32::from(e[0]));
+        }
+        self.write(map::MODEL, (mesh.edges.len() as u32) << 16 | mesh.positions.len() as u32);
+    }
+
+    fn matrix(&mut self, matrix: &ClipMatrix, eye: u32) {
+        for (i, &word) in (0..).zip(matrix.m.as_flattened()) {
+            self.write(map::MATRIX + 16 * eye + i, word as u32);
+        }
+    }
+
+    /// Draws one picture with what was written, and waits until a frame of it was seen.
+    fn picture(&mut self) -> Vec<[u8; 3]> {
+        let before = self.read(map::PICTURES);
+        self.write(map::CONTROL, map::CONTROL_RUN_MASK | map::CONTROL_COMMIT_MASK);
+        while self.read(map::STATUS) & map::STATUS_DRAWING_MASK == 0 {}
+        self.write(map::CONTROL, 0);
+        while self.read(map::PICTURES) == before {
+            (0..1000).for_each(|_| self.clock());
+        }
+        // It is shown from the next blank on; the frame after that is whole.
+        self.seen.clear();
+        while self.seen.len() < 2 {
+            self.clock();
+        }
+        let seen = self.seen.pop().expect("two frames");
+        assert_eq!(seen.faults, [""; 0]);
+        seen.pixels
+    }
+}
+
+/// The library's frame of an object, each pixel as the pins show it.
+fn frame(object: Object, camera: Camera, width: u16, height: u16) -> Vec<[u8; 3]> {
+    let objects = [object];
+    let scene = Scene::new(camera, &objects);
+    let needed = Needed::at_most(&scene);
+    let mut vertices = vec![Vertex::default(); needed.vertices];
+    let mut primitives = vec![Primitive::default(); needed.primitives];
+    let mut states = vec![ObjectState::default(); needed.objects];
+    let store =
+        Store { vertices: &mut vertices, primitives: &mut primitives, objects: &mut states };
+    let frame = Frame::prepare(&scene, Settings::new(width, height), store).expect("a frame");
+    let count = width as usize * height as usize;
+    let (mut colour, mut depth) = (vec![[0; 3]; count], vec![0; count]);
+    frame.draw_rows::<Rgb888>(0..height, &mut colour, &mut depth).expect("rows");
+    colour.into_iter().map(|p| p.map(|v| if v == 0 { 0 } else { 255 })).collect()
+}
+
+fn camera(azimuth: f64, elevation: f64, distance: f64) -> Camera {
+    let lens = projection::perspective(
+        Angle::from_degrees_f64(45.0),
+        Q16::from_ratio(4, 3),
+        Q16::from_ratio(1, 10),
+        Q16::from_int(20),
+    );
+    let (a, e) = (azimuth.to_radians(), elevation.to_radians());
+    let eye = [distance * e.cos() * a.sin(), distance * e.sin(), distance * e.cos() * a.cos()];
+    let lens = lens.expect("a lens");
+    Camera::look_at(Vec3::from_f64(eye), Vec3::ZERO, Vec3::Y, lens).expect("a camera")
+}
+
+fn model(name: &str) -> scanout_assets::Model {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
+    load(folder.join(name), &LoadOptions::default()).expect(name)
+}
+
+fn clip_matrix(camera: &Camera, transform: &Mat4) -> ClipMatrix {
+    ClipMatrix::new(&camera.projection.mul(&camera.view).mul(transform))
+}
+
+/// Frames of each model: more with SCANOUT_LONG.
+fn views(usual: u32) -> u32 {
+    let long = std::env::var_os("SCANOUT_LONG").is_some_and(|v| !v.is_empty());
+    if long { 6 * usual } else { usual }
+}
+
+#[test]
+fn shipped_models_as_wireframes_are_the_librarys_frames() {
+    let mut gpu = Gpu::new("gpu_plane");
+    gpu.stop(false);
+    gpu.write(map::INK, pack(INK));
+    assert_eq!(gpu.read(map::MAGIC), map::MAGIC_RESET);
+    assert_eq!(gpu.read(map::SIZE), 480 << 16 | 640);
+    for name in ["cube.obj", "torus.obj", "sphere.obj", "teapot.obj", "system-b/a.obj"] {
+        let model = model(name);
+        let mesh = model.parts[0].mesh.as_mesh();
+        gpu.load(&mesh);
+        let material = Material { colour: INK, ..Material::default() };
+        let object = Object::new(&mesh, &material, Mode::Wire);
+        for view in 0..views(3) {
+            let turn = f64::from(view);
+            // From afar, and so near that lines leave the screen.
+            let camera = camera(
+                77.0 * turn + 20.0,
+                31.0 * turn - 40.0,
+                if view % 2 == 0 { 4.0 } else { 2.6 },
+            );
+            gpu.matrix(&clip_matrix(&camera, &object.transform), 0);
+            let picture = gpu.picture();
+            let wanted: Vec<_> = frame(object, camera, 640, 480)
+                .iter()
+                .map(|p| common::pins(*p, [3, 3, 2]))
+                .collect();
+            assert_eq!(difference(&picture, &wanted, 640), None, "{name}, view {view}");
+            assert!(wanted.iter().filter(|&&p| p != [0; 3]).count() > 200, "{name}, view {view}");
+            let clocks = gpu.read(map::CLOCKS);
+            println!(
+                "{name}: {} vertices, {} edges, {clocks} clocks",
+                mesh.positions.len(),
+                mesh.edges.len()
+            );
+            assert!(clocks < 800 * 525, "{name} takes longer than a frame");
+        }
+    }
+}
+
+#[test]
+fn stand_alone_turns_the_model_without_a_host() {
+    let mut gpu = Gpu::new("gpu_plane");
+    gpu.stop(true);
+    let model = model("cube.obj");
+    let mesh = model.parts[0].mesh.as_mesh();
+    gpu.load(&mesh);
+    let camera = camera(0.0, 20.0, 3.4);
+    let spin = Spin::new(&camera.projection.mul(&camera.view), [0.2, 1.0, 0.1], 1.0);
+    for (i, &word) in (0..).zip(&Spin::table(&spin, &spin)) {
+        gpu.write(map::SPIN + i, word);
+    }
+    gpu.write(map::SPEED, 37);
+    let first = gpu.read(map::ANGLE);
+    gpu.write(map::CONTROL, map::CONTROL_RUN_MASK | map::CONTROL_SPIN_MASK);
+    gpu.seen.clear();
+    while gpu.seen.len() < 6 {
+        gpu.clock();
+    }
+    let material = Material { colour: INK, ..Material::default() };
+    // A frame of the library with exactly this matrix: identity camera, the matrix as the object's.
+    let wanted = |angle: u32| {
+        let matrix = spin.matrix(angle);
+        let transform = Mat4 { m: matrix.m.map(|row| row.map(i64::from)) };
+        assert_eq!(
+            ClipMatrix::new(&transform).m,
+            matrix.m,
+            "the library keeps the matrix as it is"
+        );
+        let camera = Camera { projection: Mat4::IDENTITY, view: Mat4::IDENTITY, ..camera };
+        let object = Object { transform, ..Object::new(&mesh, &material, Mode::Wire) };
+        frame(object, camera, 640, 480)
+            .iter()
+            .map(|p| common::pins(*p, [3, 3, 2]))
+            .collect::<Vec<_>>()
+    };
+    // Every frame shows the next angle.
+    let seen = &gpu.seen[2..];
+    let angle = |i: u32| (first + 37 * i) % 1024;
+    let begin =
+        (0..8).find(|&i| seen[0].pixels == wanted(angle(i))).expect("one of the first angles");
+    for (i, seen) in (0..).zip(seen) {
+        assert_eq!(difference(&seen.pixels, &wanted(angle(begin + i)), 640), None, "frame {i}");
+    }
+}
