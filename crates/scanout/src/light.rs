@@ -245,13 +245,35 @@ impl Lighting {
         sum.clamp(self.floor, ONE)
     }
 
+    /// [`local`](Self::local) and [`lit`](Self::lit): a surface colour at a mesh's normal and position.
+    #[inline(always)]
+    pub fn lit_in_mesh(&self, rgb: [u8; 3], normal: [i16; 3], position: [i16; 3]) -> [u8; 3] {
+        if self.plain && matches!(self.space, Space::Object) {
+            shaded(rgb, [self.plain_intensity(normal.map(i32::from)); 3])
+        } else {
+            self.lit_anywhere(rgb, normal, position)
+        }
+    }
+
+    #[inline(never)]
+    fn lit_anywhere(&self, rgb: [u8; 3], normal: [i16; 3], position: [i16; 3]) -> [u8; 3] {
+        let (n, p) = self.local(normal, position);
+        self.lit(rgb, n, p)
+    }
+
     /// A surface colour under the lights.
     #[inline]
     pub fn lit(&self, rgb: [u8; 3], n: [i32; 3], p: [i32; 3]) -> [u8; 3] {
         let intensity =
             if self.plain { [self.plain_intensity(n); 3] } else { self.intensity(n, p) };
-        core::array::from_fn(|i| ((rgb[i] as i32 * intensity[i] + ONE / 2) >> 14) as u8)
+        shaded(rgb, intensity)
     }
+}
+
+/// A colour times intensities, to nearest.
+#[inline(always)]
+fn shaded(rgb: [u8; 3], intensity: [i32; 3]) -> [u8; 3] {
+    core::array::from_fn(|i| ((rgb[i] as i32 * intensity[i] + ONE / 2) >> 14) as u8)
 }
 
 /// `x^n` for x in [0, 1] (Q.14), by squaring in Q.30, floor; error below 2^-12 for n up to 1024.

@@ -270,8 +270,7 @@ impl ObjectPass<'_> {
         {
             if vertex.inv_w & UNMARKED == 0 {
                 vertex.inv_w |= UNMARKED;
-                let (n, p) = lighting.local(normal, position);
-                vertex.rgb = lighting.lit(vertex.rgb, n, p);
+                vertex.rgb = lighting.lit_in_mesh(vertex.rgb, normal, position);
             }
         }
     }
@@ -441,8 +440,7 @@ impl ObjectPass<'_> {
                 sum.div_euclid(3) as i16
             });
         }
-        let (n, p) = lighting.local(normal, centre);
-        lighting.lit(colour, n, p)
+        lighting.lit_in_mesh(colour, normal, centre)
     }
 
     /// Edges with both ends in the frame are listed in runs of neighbours: `index` is the first, `rgb[0]` how many more
