@@ -78,6 +78,8 @@ module gpu #(
 );
     localparam int WIDTH = H_ACTIVE >> SCALE_BITS;
     localparam int HEIGHT = V_ACTIVE >> SCALE_BITS;
+    localparam logic [15:0] SIZE_WIDTH = 16'(WIDTH);
+    localparam logic [15:0] SIZE_HEIGHT = 16'(HEIGHT);
     localparam int W_X = $clog2(WIDTH);
     localparam int W_Y = $clog2(HEIGHT);
     localparam int W_SCREEN = W_X > W_Y ? W_X : W_Y;
@@ -113,8 +115,8 @@ module gpu #(
                 .wb_dat_r           (wb_dat_r),
                 .wb_ack             (wb_ack),
                 .wb_err             (wb_err),
-                .size_width         (16'(WIDTH)),
-                .size_height        (16'(HEIGHT)),
+                .size_width         (SIZE_WIDTH),
+                .size_height        (SIZE_HEIGHT),
                 .control_run        (run),
                 .control_spin       (use_spin),
                 .control_camera     (camera),
@@ -208,7 +210,9 @@ module gpu #(
     // The matrix memory: bank, eye, word.
     logic [5:0]  matrix_read_address;
     logic [31:0] matrix_read;
-    assign matrix_read_address = {bank, right, word[3:0]};
+    logic [ 5:0] matrix_write_address;
+    assign matrix_read_address  = {bank, right, word[3:0]};
+    assign matrix_write_address = {!bank, window_index[4:0]};
 
     generate
         if (BUS != 0) begin : g_matrix
@@ -218,14 +222,14 @@ module gpu #(
             ) i_matrix (
                 .clk          (clk),
                 .write        (matrix_write),
-                .write_address({!bank, window_index[4:0]}),
+                .write_address(matrix_write_address),
                 .write_word   (window_data),
                 .read_address (matrix_read_address),
                 .read_word    (matrix_read)
             );
         end else begin : g_no_matrix
             logic unused_matrix;
-            assign unused_matrix = ^{matrix_read_address, matrix_write};
+            assign unused_matrix = ^{matrix_read_address, matrix_write_address, matrix_write};
             assign matrix_read   = '0;
         end
     endgenerate
@@ -234,6 +238,8 @@ module gpu #(
     logic [ 3:0] spin_address;
     logic [31:0] spin_word;
     logic        spinning;
+    logic        spin_start;
+    assign spin_start = state == FILL && spinning;
     assign spinning = SPIN != 0 && (BUS == 0 || use_spin);
 
     generate
@@ -246,7 +252,7 @@ module gpu #(
                 .write        (spin_write),
                 .write_address(window_index[8:0]),
                 .write_word   (window_data),
-                .start        (state == FILL && spinning),
+                .start        (spin_start),
                 .angle        (angle),
                 .right        (right),
                 .m_write      (spin_valid),
@@ -256,7 +262,7 @@ module gpu #(
             );
         end else begin : g_no_spin
             logic unused_spin;
-            assign unused_spin = spin_write;
+            assign unused_spin = ^{spin_write, spin_start};
             assign {spin_valid, spin_address, spin_word, spin_done} = '0;
         end
     endgenerate
@@ -336,31 +342,55 @@ module gpu #(
     logic [15:0] z;
     always_ff @(posedge clk) if (vertex_write && window_index[0]) z <= window_data[15:0];
 
+    localparam int TAGGED = WAY == 2 ? 1 : 0;
+    localparam logic [W_SCREEN:0] EYE_HEIGHT = (W_SCREEN + 1)'(HEIGHT);
+    logic                wireframe_start;
+    logic                screen_done;
+    logic [  W_VERTEX:0] vertex_count;
+    logic [    W_EDGE:0] edge_count;
+    logic                xy_write;
+    logic [        47:0] vertex_word;
+    logic                word_write;
+    logic [         3:0] word_address;
+    logic [        31:0] word_data;
+    logic [        23:0] group_rgb;
+
+    assign wireframe_start = state == BEGIN;
+    assign screen_done     = state == FINISH;
+    assign vertex_count    = vertices == '0 ? (W_VERTEX + 1)'(MODEL_VERTICES) : vertices[W_VERTEX:0];
+    assign edge_count      = edges == '0 ? (W_EDGE + 1)'(MODEL_EDGES) : edges[W_EDGE:0];
+    assign xy_write        = vertex_write && !window_index[0];
+    assign vertex_word     = {z, window_data};
+    assign word_write      = spin_valid || fill_valid;
+    assign word_address    = spin_valid ? spin_address : fill_address;
+    assign word_data       = spin_valid ? spin_word : matrix_read;
+    assign group_rgb       = palette[24*pixel_group+:24];
+
     wireframe #(
         .W_SCREEN   (W_SCREEN),
         .VERTICES   (VERTICES),
         .EDGES      (EDGES),
         .MULTIPLIERS(MULTIPLIERS),
-        .TAGGED     (WAY == 2 ? 1 : 0),
+        .TAGGED     (TAGGED),
         .VERTEX_HEX (VERTEX_HEX),
         .EDGE_HEX   (EDGE_HEX)
     ) i_wireframe (
         .clk           (clk),
         .rst_n         (rst_n),
         .width         (eye_width),
-        .height        ((W_SCREEN + 1)'(HEIGHT)),
-        .vertices      (vertices == '0 ? (W_VERTEX + 1)'(MODEL_VERTICES) : vertices[W_VERTEX:0]),
-        .edges         (edges == '0 ? (W_EDGE + 1)'(MODEL_EDGES) : edges[W_EDGE:0]),
-        .vertex_write  (vertex_write && !window_index[0]),
+        .height        (EYE_HEIGHT),
+        .vertices      (vertex_count),
+        .edges         (edge_count),
+        .vertex_write  (xy_write),
         .vertex_address(window_index[W_VERTEX:1]),
-        .vertex_word   ({z, window_data}),
+        .vertex_word   (vertex_word),
         .edge_write    (edge_write),
         .edge_address  (window_index[W_EDGE-1:0]),
         .edge_word     (window_data),
-        .matrix_write  (spin_valid || fill_valid),
-        .matrix_address(spin_valid ? spin_address : fill_address),
-        .matrix_word   (spin_valid ? spin_word : matrix_read),
-        .start         (state == BEGIN),
+        .matrix_write  (word_write),
+        .matrix_address(word_address),
+        .matrix_word   (word_data),
+        .start         (wireframe_start),
         .busy          (busy),
         .done          (wireframe_done),
         .m_valid       (pixel_valid),
@@ -406,12 +436,12 @@ module gpu #(
         .draw_clk      (clk),
         .draw_rst_n    (rst_n),
         .draw_enable   (draw_enable),
-        .draw_done     (state == FINISH),
+        .draw_done     (screen_done),
         .s_valid       (pixel_valid),
         .s_ready       (pixel_ready),
         .s_x           (pixel_x[W_X-1:0]),
         .s_y           (pixel_y[W_Y-1:0]),
-        .s_rgb         (palette[24*pixel_group+:24]),
+        .s_rgb         (group_rgb),
         .s_steep       (pixel_steep),
         .s_group       (pixel_group),
         .s_right       (right),
