@@ -3,10 +3,13 @@
 //! Names follow f3d where f3d has the option; its longer spellings are accepted as aliases.
 
 mod choices;
+mod window;
 
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueHint};
+
+pub use window::WindowArgs;
 
 pub use choices::{
     DrawMode, InputFormat, OutputFormat, PixelFormat, Stereo, Terminal, TextureFilter, TextureWrap,
@@ -46,6 +49,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Look at models in a window: orbit, pan, zoom
     View(ViewArgs),
+    /// Look through the screen as through a window: your head moves, the picture follows
+    Window(WindowArgs),
     /// Draw the model turning once: GIF, APNG or a folder of pictures
     Turntable(TurntableArgs),
     /// Tell what a model holds and what it needs on a small machine
@@ -176,6 +181,9 @@ pub struct CameraArgs {
     /// Distance of the two eyes [default: 1/30 of the distance to the focal point]
     #[arg(long, value_name = "D", requires = "stereo", value_parser = between(0.0, 1e9))]
     pub eye_distance: Option<f64>,
+    /// The right eye's picture where the left eye's belongs
+    #[arg(long, requires = "stereo")]
+    pub swap_eyes: bool,
     /// Off-axis: the eye, from the middle of the screen, z towards the viewer
     #[arg(
         long,
@@ -397,7 +405,7 @@ pub struct CompletionsArgs {
     pub shell: clap_complete::Shell,
 }
 
-fn between(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
+pub(crate) fn between(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| match text.parse::<f64>() {
         Ok(value) if (low..=high).contains(&value) => Ok(value),
         Ok(_) => Err(format!("not in {low} - {high}")),

@@ -65,6 +65,7 @@ fn dispatch(cli: Cli) -> Result<()> {
         Command::Demo(args) => cmd::demo::run(&args),
         Command::Render(args) => cmd::render::run(&args),
         Command::View(args) => cmd::view::run(&args),
+        Command::Window(args) => cmd::window::run(&args),
         Command::Turntable(args) => cmd::turntable::run(&args),
         Command::Info(args) => cmd::info::run(&args),
         Command::Bake(args) => cmd::bake::run(&args),

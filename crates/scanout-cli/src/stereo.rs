@@ -1,55 +1,59 @@
-//! Two eyes in one picture.
-//!
-//! | arrangement | left eye | right eye | size of an eye's picture |
-//! |---|---|---|---|
-//! | anaglyph | red channel | green and blue channels | whole frame |
-//! | side by side | left half | right half | W/2 x H, in natural proportions |
-//! | top-bottom | upper half | lower half | W x H/2, in natural proportions |
-//! | interlaced | even lines (0, 2, ...) | odd lines | whole frame |
-//!
-//! When the split side is odd, the middle column or line is the right eye's.
+//! Two eyes in one picture: the crate `scanout-head` has the arithmetic, this module its names on the command line.
+
+use scanout_head::stereo::{self, Arrangement};
 
 use crate::args::Stereo;
 use crate::image_out::Picture;
+
+/// The arrangement of a name.
+pub fn arrangement(how: Stereo) -> Arrangement {
+    match how {
+        Stereo::Anaglyph => Arrangement::Anaglyph,
+        Stereo::AnaglyphGrey => Arrangement::AnaglyphGrey,
+        Stereo::AnaglyphHalfColour => Arrangement::AnaglyphHalfColour,
+        Stereo::AnaglyphDubois => Arrangement::AnaglyphDubois,
+        Stereo::SideBySide => Arrangement::SideBySide,
+        Stereo::SideBySideHalf => Arrangement::SideBySideHalf,
+        Stereo::TopBottom => Arrangement::TopBottom,
+        Stereo::TopBottomHalf => Arrangement::TopBottomHalf,
+        Stereo::Interlaced => Arrangement::Interlaced,
+    }
+}
 
 /// Sizes (width, height) of the left and the right eye's picture in a frame of `width` x `height`.
 ///
 /// Halves of at least one pixel, so a frame must measure two along the split.
 pub fn eye_sizes(how: Stereo, width: u16, height: u16) -> [(u16, u16); 2] {
+    arrangement(how)
+        .eye_sizes(width.into(), height.into())
+        .map(|(width, height)| (width as u16, height as u16))
+}
+
+/// The proportions (width, height) of what an eye sees: those of its picture, or of the whole frame where it is squeezed.
+pub fn proportions(how: Stereo, eye: (u16, u16), frame: (u16, u16)) -> (u16, u16) {
     match how {
-        Stereo::Anaglyph | Stereo::Interlaced => [(width, height); 2],
-        Stereo::SideBySide => [(width / 2, height), (width - width / 2, height)],
-        Stereo::TopBottom => [(width, height / 2), (width, height - height / 2)],
+        Stereo::SideBySideHalf | Stereo::TopBottomHalf => frame,
+        _ => eye,
     }
 }
 
 /// Puts two eyes' pictures, of the sizes that [`eye_sizes`] told, into one.
 pub fn compose(how: Stereo, left: &Picture, right: &Picture) -> Picture {
-    let both = left.pixels.iter().zip(&right.pixels);
-    match how {
-        Stereo::Anaglyph => {
-            let pixels = both.map(|(l, r)| [l[0], r[1], r[2]]).collect();
-            Picture { pixels, ..*left }
-        }
-        Stereo::Interlaced => {
-            let rows = left.rows().zip(right.rows()).enumerate();
-            let pixels = rows.flat_map(|(y, (l, r))| if y % 2 == 0 { l } else { r }).copied();
-            Picture { pixels: pixels.collect(), ..*left }
-        }
-        Stereo::SideBySide => {
-            let rows = left.rows().zip(right.rows());
-            let pixels = rows.flat_map(|(l, r)| l.iter().chain(r)).copied().collect();
-            Picture { width: left.width + right.width, height: left.height, pixels }
-        }
-        Stereo::TopBottom => {
-            let pixels = [&left.pixels[..], &right.pixels[..]].concat();
-            Picture { width: left.width, height: left.height + right.height, pixels }
-        }
-    }
+    let (width, height) = match how {
+        Stereo::SideBySide | Stereo::SideBySideHalf => (left.width + right.width, left.height),
+        Stereo::TopBottom | Stereo::TopBottomHalf => (left.width, left.height + right.height),
+        _ => (left.width, left.height),
+    };
+    let mut picture = Picture::filled(width, height, [0; 3]);
+    let how = arrangement(how);
+    stereo::compose(how, &left.pixels, &right.pixels, &mut picture.pixels, width);
+    picture
 }
 
 #[cfg(test)]
 mod tests {
+    use clap::ValueEnum;
+
     use super::*;
 
     const L: [u8; 3] = [1, 2, 3];
@@ -70,5 +74,14 @@ mod tests {
         assert_eq!(composed(Stereo::Interlaced, 1, 3).pixels, [L, R, L]);
         assert_eq!(composed(Stereo::SideBySide, 3, 2).pixels, [L, R, R, L, R, R]);
         assert_eq!(composed(Stereo::TopBottom, 1, 3).pixels, [L, R, R]);
+    }
+
+    #[test]
+    fn every_name_has_an_arrangement_of_its_own() {
+        let mut all: Vec<_> =
+            Stereo::value_variants().iter().map(|how| arrangement(*how)).collect();
+        assert_eq!(all.len(), Arrangement::ALL.len());
+        all.dedup();
+        assert!(Arrangement::ALL.iter().all(|how| all.contains(how)));
     }
 }

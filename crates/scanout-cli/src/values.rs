@@ -92,6 +92,28 @@ impl fmt::Display for Resolution {
     }
 }
 
+/// A screen's width and height, `WxHmm`, `WxHcm` or `WxHin`; millimetres without a unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Millimetres(pub [f64; 2]);
+
+impl FromStr for Millimetres {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
+        let found = units.iter().find_map(|(unit, mm)| Some((text.strip_suffix(unit)?, *mm)));
+        let (numbers, unit) = found.unwrap_or((text, 1.0));
+        let expected = || format!("'{text}' is no size, expected WxHmm, such as 520x290mm");
+        let (w, h) = numbers.split_once(['x', ',']).ok_or_else(expected)?;
+        let side = |part: &str| part.trim().parse::<f64>().map_err(|_| expected());
+        let size = [side(w)? * unit, side(h)? * unit];
+        match scanout_head::screen::Screen::new(size[0], size[1], 0.0) {
+            Ok(_) => Ok(Self(size)),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+}
+
 /// A light: `X,Y,Z` towards it (parallel light), or `point:X,Y,Z` where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightAt {
@@ -243,6 +265,17 @@ mod tests {
         assert_eq!("1,4096".parse(), Ok(Resolution { width: 1, height: 4096 }));
         for bad in ["0,1", "1,4097", "12", "-1,5", "1,2,3"] {
             assert!(bad.parse::<Resolution>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn screens_have_units() {
+        for text in ["520x290mm", "520x290", "52x29cm", "520,290", " 520 x 290 mm"] {
+            assert_eq!(text.parse(), Ok(Millimetres([520.0, 290.0])), "{text}");
+        }
+        assert_eq!("20x10in".parse(), Ok(Millimetres([508.0, 254.0])));
+        for bad in ["520", "520mm", "axb", "1x1mm", "nanx290", "520x-290", "520x290m"] {
+            assert!(bad.parse::<Millimetres>().is_err(), "{bad}");
         }
     }
 

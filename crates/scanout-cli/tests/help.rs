@@ -28,6 +28,7 @@ fn help_texts() {
         "demo",
         "render",
         "view",
+        "window",
         "turntable",
         "info",
         "bake",

@@ -16,14 +16,14 @@ const DISTANCES: [f64; 2] = [100.0, 3000.0];
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manual {
     eye: V3,
-    moved: bool,
+    moved: Option<f64>,
 }
 
 impl Manual {
     /// Begins at `eye`, mm.
     pub fn new(eye: V3) -> Self {
-        let mut manual = Self { eye: [0.0, 0.0, 600.0], moved: true };
-        manual.set(eye);
+        let mut manual = Self { eye: [0.0, 0.0, 600.0], moved: None };
+        manual.set(eye, 0.0);
         manual
     }
 
@@ -32,25 +32,25 @@ impl Manual {
         self.eye
     }
 
-    /// Moves by steps of [`STEP`] mm to the right, upwards, away from the screen.
-    pub fn step(&mut self, steps: V3) {
-        self.set(std::array::from_fn(|i| self.eye[i] + steps[i] * STEP));
+    /// Moves by steps of [`STEP`] mm to the right, upwards, away from the screen, at `time` seconds.
+    pub fn step(&mut self, steps: V3, time: f64) {
+        self.set(std::array::from_fn(|i| self.eye[i] + steps[i] * STEP), time);
     }
 
-    /// Places the viewer, within reach. What isn't finite is ignored.
-    pub fn set(&mut self, eye: V3) {
+    /// Places the viewer, within reach, at `time` seconds. What isn't finite is ignored.
+    pub fn set(&mut self, eye: V3, time: f64) {
         if eye.iter().all(|x| x.is_finite()) {
             let [x, y, z] = eye;
             let [w, h] = REACH;
             self.eye = [x.clamp(-w, w), y.clamp(-h, h), z.clamp(DISTANCES[0], DISTANCES[1])];
-            self.moved = true;
+            self.moved = Some(time);
         }
     }
 }
 
 impl Source for Manual {
-    fn poll(&mut self, now: f64) -> Option<Sample> {
-        std::mem::take(&mut self.moved).then_some(Sample { time: now, eye: Some(self.eye) })
+    fn poll(&mut self, _now: f64) -> Option<Sample> {
+        self.moved.take().map(|time| Sample { time, eye: Some(self.eye) })
     }
 
     fn silence_is_loss(&self) -> bool {
@@ -66,12 +66,12 @@ mod tests {
     fn steps_and_places_within_reach() {
         let mut manual = Manual::new([0.0, 0.0, 600.0]);
         assert!(manual.poll(0.0).is_some() && manual.poll(0.1).is_none());
-        manual.step([2.0, -1.0, 0.0]);
-        let sample = Sample { time: 0.2, eye: Some([20.0, -10.0, 600.0]) };
+        manual.step([2.0, -1.0, 0.0], 0.15);
+        let sample = Sample { time: 0.15, eye: Some([20.0, -10.0, 600.0]) };
         assert_eq!(manual.poll(0.2), Some(sample));
-        (0..1000).for_each(|_| manual.step([0.0, 0.0, -1.0]));
+        (0..1000).for_each(|_| manual.step([0.0, 0.0, -1.0], 0.3));
         assert_eq!(manual.eye()[2], 100.0);
-        manual.set([f64::NAN, 0.0, 0.0]);
+        manual.set([f64::NAN, 0.0, 0.0], 0.4);
         assert_eq!(manual.eye(), [20.0, -10.0, 100.0]);
     }
 }

@@ -137,7 +137,7 @@ impl Arrangement {
             SideBySide | SideBySideHalf => Place::Right { x: x - width / 2, y },
             TopBottom | TopBottomHalf if y < height / 2 => Place::Left { x, y },
             TopBottom | TopBottomHalf => Place::Right { x, y: y - height / 2 },
-            Interlaced if y % 2 == 0 => Place::Left { x, y },
+            Interlaced if y.is_multiple_of(2) => Place::Left { x, y },
             Interlaced => Place::Right { x, y },
             _ => Place::Both,
         }

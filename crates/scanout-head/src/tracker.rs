@@ -15,6 +15,9 @@ use crate::source::Sample;
 /// How long a viewer who is not seen is believed to stand still, seconds.
 pub const PATIENCE: f64 = 0.3;
 
+/// How long a source may be silent before its last place counts as where it still is, seconds.
+const HOLD: f64 = 0.05;
+
 /// Half-lives of the offset, seconds: found, lost.
 const HALF_LIVES: [f64; 2] = [0.1, 0.4];
 
@@ -78,6 +81,8 @@ pub struct Tracker {
     axes: [OneEuro; 3],
     /// The last filtered place and its time.
     seen: Option<(f64, V3)>,
+    /// The last place as it came.
+    raw: V3,
     /// Since when the source has been looking and finding nobody.
     absent: Option<f64>,
     found: bool,
@@ -91,7 +96,17 @@ impl Tracker {
     pub fn new(options: Options) -> Self {
         let axes = [OneEuro::new(options.filter.unwrap_or_default()); 3];
         let (offset, eye) = ([0.0; 3], options.rest);
-        Self { options, axes, seen: None, absent: None, found: false, offset, eye, now: None }
+        Self {
+            options,
+            axes,
+            seen: None,
+            raw: [0.0; 3],
+            absent: None,
+            found: false,
+            offset,
+            eye,
+            now: None,
+        }
     }
 
     /// Is the viewer seen?
@@ -106,7 +121,7 @@ impl Tracker {
                 self.see(time, self.options.calibration.apply(place));
             }
             Some(Sample { time, eye: None }) => _ = self.absent.get_or_insert(time),
-            _ => {}
+            _ => self.hold(now),
         }
         let dt = self.now.map_or(0.0, |before| (now - before).max(0.0));
         self.now = Some(now);
@@ -126,11 +141,21 @@ impl Tracker {
         self.eye
     }
 
+    /// A hand that rests stays where it is, and the filter must arrive there.
+    fn hold(&mut self, now: f64) {
+        if !self.options.silence_is_loss
+            && self.absent.is_none()
+            && self.seen.is_some_and(|(time, _)| now - time > HOLD)
+        {
+            self.see(now, self.raw);
+        }
+    }
+
     fn see(&mut self, time: f64, place: V3) {
         if self.seen.is_some_and(|(before, _)| time <= before) {
             return;
         }
-        self.absent = None;
+        (self.absent, self.raw) = (None, place);
         if !self.found {
             self.axes.iter_mut().for_each(OneEuro::reset);
         }
@@ -197,6 +222,13 @@ mod tests {
         tracker.update(0.0, at(0.0, 100.0));
         let eye = tracker.update(1000.0, None);
         assert!((eye[0] - 100.0).abs() < 1e-6 && tracker.found(), "{eye:?}");
+        // One step of a key, and silence: the filter arrives all the same.
+        let options = Options { silence_is_loss: false, ..Options::default() };
+        let mut tracker = Tracker::new(options);
+        tracker.update(0.0, at(0.0, 100.0));
+        tracker.update(1.0, at(1.0, 110.0));
+        let eyes = (1..120).map(|i| tracker.update(1.0 + f64::from(i) / 60.0, None)[0]);
+        assert!((eyes.last().unwrap() - 110.0).abs() < 0.1);
     }
 
     #[test]

@@ -75,16 +75,35 @@ pub enum TextureWrap {
     Border,
 }
 
-/// Two eyes in one picture.
+/// Two eyes in one picture; the aliases are ffmpeg's.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stereo {
-    /// For red-cyan glasses
+    /// For red-cyan glasses: all colours
+    #[value(aliases = ["anaglyph-colour", "anaglyph-color", "arcc"])]
     Anaglyph,
+    /// For red-cyan glasses: without colours
+    #[value(aliases = ["anaglyph-gray", "arcg"])]
+    AnaglyphGrey,
+    /// For red-cyan glasses: the left eye without colours
+    #[value(aliases = ["anaglyph-half-color", "arch"])]
+    AnaglyphHalfColour,
+    /// For red-cyan glasses: colours by Dubois' least squares
+    #[value(aliases = ["arcd"])]
+    AnaglyphDubois,
     /// Left eye in the left half
+    #[value(aliases = ["sbsl"])]
     SideBySide,
+    /// Left eye in the left half, squeezed, as televisions take it
+    #[value(aliases = ["sbs2l"])]
+    SideBySideHalf,
     /// Left eye in the upper half
+    #[value(aliases = ["abl"])]
     TopBottom,
+    /// Left eye in the upper half, squeezed
+    #[value(aliases = ["ab2l"])]
+    TopBottomHalf,
     /// Left eye in the even lines
+    #[value(aliases = ["irl"])]
     Interlaced,
 }
 

@@ -10,3 +10,4 @@ pub mod man;
 pub mod render;
 pub mod turntable;
 pub mod view;
+pub mod window;

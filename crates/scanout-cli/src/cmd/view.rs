@@ -152,6 +152,7 @@ impl Content for Viewer {
                 view.distance = (view.distance * factor).clamp(radius * 0.1, radius * 50.0);
             }
             Input::Key(key) => self.key(key),
+            Input::Arrow(..) | Input::Cursor(..) => {}
         }
     }
 

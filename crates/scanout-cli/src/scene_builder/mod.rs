@@ -167,6 +167,11 @@ impl Stage {
         (self.mode, self.chosen) = (mode, true);
     }
 
+    /// Draws faces this way from now on, and what has none as lines or points.
+    pub fn set_mode_of_faces(&mut self, mode: DrawMode) {
+        (self.mode, self.chosen) = (mode, false);
+    }
+
     /// Is there one colour behind the models, and no picture?
     pub fn background_is_plain(&self) -> bool {
         self.backdrop.is_none()
@@ -186,7 +191,10 @@ impl Stage {
     pub fn shot(&self, args: &SceneArgs, size: (u16, u16), fit: Fit) -> Result<Shot> {
         let fit = if args.camera.rotation_frame.is_some() { Fit::Turn } else { fit };
         let eye = match args.camera.stereo {
-            Some(how) => crate::stereo::eye_sizes(how, size.0, size.1)[0],
+            Some(how) => {
+                let eye = crate::stereo::eye_sizes(how, size.0, size.1)[0];
+                crate::stereo::proportions(how, eye, size)
+            }
             None => size,
         };
         let aspect = f64::from(eye.0.max(1)) / f64::from(eye.1.max(1));

@@ -16,7 +16,7 @@ use scanout::math::{Angle, Mat4, Q16, Vec3};
 use super::vector::{V3, along, cross, dot, length, minus, normalised, sin_cos, turned};
 use crate::args::{CameraArgs, Stereo};
 use crate::error::{Error, Result};
-use crate::stereo::eye_sizes;
+use crate::stereo::{arrangement, eye_sizes, proportions};
 use crate::values::Up;
 
 /// How much of the view a fitted model leaves free, as a factor of its size.
@@ -97,6 +97,8 @@ pub struct View {
     pub orthographic: bool,
     /// Two eyes and their distance.
     pub stereo: Option<(Stereo, Option<f64>)>,
+    /// The right eye's picture where the left eye's belongs.
+    pub swap_eyes: bool,
     /// The axis about which the model turns, a unit vector.
     pub turn_axis: V3,
     /// The off-axis eye and screen.
@@ -179,6 +181,7 @@ impl View {
             zoom: args.zoom,
             orthographic: args.orthographic,
             stereo: args.stereo.map(|how| (how, args.eye_distance)),
+            swap_eyes: args.swap_eyes,
             window: args.eye.zip(args.screen).map(|(eye, screen)| (eye.0, screen.0)),
             centre: subject.centre,
             radius: subject.radius,
@@ -315,7 +318,11 @@ impl View {
             }
             Some((how, distance)) => {
                 let half = distance.unwrap_or(self.distance / 30.0) / 2.0;
-                let eye = |size: (u16, u16), x| self.camera(size.0, size.1, x).map(|c| (c, size));
+                let half = if self.swap_eyes { -half } else { half };
+                let eye = |size: (u16, u16), x| {
+                    let (w, h) = proportions(how, size, (width, height));
+                    self.camera(w, h, x).map(|camera| (camera, size))
+                };
                 let [left, right] = eye_sizes(how, width, height);
                 eye(left, -half).and_then(|left| Ok(vec![left, eye(right, half)?]))
             }
@@ -332,6 +339,9 @@ impl View {
         let (near, far) = (world.length(near), world.length(far));
         let [right, up, _] = self.basis;
         if let Some((_, [w, h])) = self.window {
+            // A half in natural proportions is a window half as large.
+            let share = self.stereo.map_or((1.0, 1.0), |(how, _)| arrangement(how).share());
+            let (w, h) = (w * share.0, h * share.1);
             let corner = |i: f64, j: f64| {
                 world.point(along(along(self.focal, right, i * w / 2.0), up, j * h / 2.0))
             };

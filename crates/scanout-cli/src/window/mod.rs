@@ -29,6 +29,10 @@ pub enum Input {
     Zoom(f64),
     /// A key's character, in lower case.
     Key(char),
+    /// An arrow key: steps to the right and upwards.
+    Arrow(i8, i8),
+    /// The mouse is here, with or without a button: -1 to 1 from left to right and from bottom to top.
+    Cursor(f64, f64),
 }
 
 /// What a window shows.
@@ -38,10 +42,16 @@ pub trait Content {
     /// # Errors
     /// Ends the window.
     fn draw(&mut self, width: u16, height: u16, seconds: f64) -> Result<Picture>;
+    /// The last picture drawn has been handed to the screen.
+    fn shown(&mut self) {}
     /// Reacts to the user.
     fn input(&mut self, input: Input);
     /// Does the picture change by itself?
     fn moves(&self) -> bool;
+    /// Does the window cover the whole screen?
+    fn fullscreen(&self) -> bool {
+        false
+    }
     /// The first part of the window's title.
     fn title(&self) -> String;
     /// Told twice a second: frames a second and milliseconds a frame's drawing.

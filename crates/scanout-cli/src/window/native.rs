@@ -10,7 +10,7 @@ use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, ModifiersState, NamedKey};
-use winit::window::{Window, WindowId};
+use winit::window::{Fullscreen, Window, WindowId};
 
 use super::{Content, Input, NoWindow, Setting};
 use crate::error::Result;
@@ -95,7 +95,8 @@ impl App<'_> {
         let (width, height) = self.setting.size;
         let attributes = Window::default_attributes()
             .with_title(format!("scanout - {}", self.content.title()))
-            .with_inner_size(PhysicalSize::new(u32::from(width), u32::from(height)));
+            .with_inner_size(PhysicalSize::new(u32::from(width), u32::from(height)))
+            .with_fullscreen(self.content.fullscreen().then_some(Fullscreen::Borderless(None)));
         let window = Rc::new(events.create_window(attributes).map_err(|e| no_window(&e))?);
         let context = Context::new(window.clone()).map_err(|error| no_window(&error))?;
         let surface = Surface::new(&context, window.clone()).map_err(|error| no_window(&error))?;
@@ -132,6 +133,7 @@ impl App<'_> {
             self.outcome = Err(error);
             return events.exit();
         }
+        self.content.shown();
         self.clock.frames += 1;
         self.clock.total += 1;
         self.report();
@@ -164,6 +166,11 @@ impl App<'_> {
     fn moved(&mut self, to: (f64, f64)) {
         let from = self.cursor.replace(to).unwrap_or(to);
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        if let Some(shown) = &self.shown {
+            let size = shown.window.inner_size();
+            let share = |at: f64, side: u32| at / f64::from(side.max(1)) * 2.0 - 1.0;
+            self.content.input(Input::Cursor(share(to.0, size.width), -share(to.1, size.height)));
+        }
         let Some(button) = self.dragging else { return };
         let pans = button != MouseButton::Left || self.modifiers.shift_key();
         self.content.input(if pans { Input::Pan(dx, dy) } else { Input::Orbit(dx, dy) });
@@ -174,6 +181,10 @@ impl App<'_> {
         match key {
             Key::Named(NamedKey::Escape) => events.exit(),
             Key::Named(NamedKey::Space) => self.content.input(Input::Key(' ')),
+            Key::Named(NamedKey::ArrowLeft) => self.content.input(Input::Arrow(-1, 0)),
+            Key::Named(NamedKey::ArrowRight) => self.content.input(Input::Arrow(1, 0)),
+            Key::Named(NamedKey::ArrowUp) => self.content.input(Input::Arrow(0, 1)),
+            Key::Named(NamedKey::ArrowDown) => self.content.input(Input::Arrow(0, -1)),
             Key::Character(text) => {
                 for character in text.chars().flat_map(char::to_lowercase) {
                     self.content.input(Input::Key(character));
