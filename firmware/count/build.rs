@@ -1,0 +1,31 @@
+//! Bakes system B's models with their textures, and says where the linker script of the target lies.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use scanout_assets::{Limits, LoadOptions, bake, load, load_image};
+
+fn main() {
+    let here = env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
+    if env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none") {
+        let arm = env::var("CARGO_CFG_TARGET_ARCH").as_deref() == Ok("arm");
+        let script = if arm { "mps2.ld" } else { "virt.ld" };
+        println!("cargo::rerun-if-changed={script}");
+        println!("cargo::rustc-link-arg-bins=-T{here}/{script}");
+        println!("cargo::rustc-link-arg-bins=-T{here}/../../scripts/bare-metal-probe/sections.ld");
+    }
+    let out = PathBuf::from(env::var("OUT_DIR").unwrap_or_default());
+    let models = Path::new(&here).join("../../models/system-b");
+    for name in ["a", "b", "c"] {
+        let file = |ending| models.join(name).with_extension(ending);
+        println!("cargo::rerun-if-changed={}", file("obj").display());
+        println!("cargo::rerun-if-changed={}", file("ppm").display());
+        let mut model =
+            load(file("obj"), &LoadOptions::default()).expect("the repository's own model");
+        let image = load_image(file("ppm"), &Limits::default());
+        model.images.push(image.expect("the repository's own picture").0);
+        model.parts[0].material.texture = Some(0);
+        let baked = bake::to_binary(&model).expect("it is small");
+        fs::write(out.join(name).with_extension("mesh"), baked).expect("cargo's own folder");
+    }
+}
