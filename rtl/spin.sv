@@ -5,11 +5,13 @@
 //   m[k] = A[k] + (B[k] cos + C[k] sin + 2^29 >> 30)        k = 0 .. 15; exact, one rounding (floor after the half)
 //
 // The table (`spin` in registers.md) holds a quarter turn's 256 sines in Q2.30, the library's, and A, B, C; it is a block RAM
-// with HEX as its first content, and a host may write it. The angle has 1024 steps a turn; `right` takes the A, B, C of the other eye.
+// with HEX as its first content, and a host may write it. The angle has 1024 steps a turn; `right` takes the A, B, C of the
+// other eye.
 //
-// B cos + C sin is found a bit of both factors after the other, from the lowest: sum = (sum + b B + c C) / 2, where the bit that
-// drops out is a bit of the exact result that rounding has already used up; two clocks a bit, one adder. With `start` a matrix is
-// written in about 1,050 clocks: `m_write` with each word, then `done`.
+// Cosine and sine are kept as sizes and signs. B cos + C sin is found a bit of both sizes after the other, from the lowest:
+// sum = (sum +- b B +- c C) / 2, two clocks a bit and one adder. What drops out are the exact result's low bits, the last of them
+// the half that rounds. B and C come from the memory each time, so that no register holds them. With `start` a matrix is
+// written in about 1,040 clocks: `m_write` with each word, then `done`.
 `default_nettype none
 
 module spin #(
@@ -28,11 +30,13 @@ module spin #(
     output logic      [31:0] m_data,
     output logic             done
 );
-    typedef enum logic [3:0] {
-        IDLE, SINE, COSINE, COSINE_SEEN, READ_A, READ_B, READ_C, SEEN_B, SEEN_C, ADD_B, ADD_C, OFFSET, NEXT
-    } state_t;
+    // The word that a state sees was addressed in the state before.
+    typedef enum logic [2:0] {IDLE, SINE, COSINE, FIRST, ADD_B, ADD_C, OFFSET} state_t;
     state_t state;
 
+    logic [ 3:0] k;
+    logic [ 4:0] step;
+    logic        last;
     logic [ 8:0] read_address;
     logic [31:0] word;
     model_memory #(
@@ -48,82 +52,60 @@ module spin #(
         .read_word    (word)
     );
 
-    // The sine of quadrant q and step i: table[i], 1 - mirrored: table[256 - i], which for i = 0 is one; negative for q >= 2.
+    // The sine of quadrant q and step i: table[i], or table[256 - i] in quadrants 1 and 3, which for i = 0 is one; negative in 2 and
+    // 3. The cosine is the sine a quadrant further.
     logic [9:0] at;
-    logic       mirrored_zero;
-    assign at = state == IDLE ? angle : angle + 10'd256;
+    logic       is_one;
+    assign at     = state == IDLE ? angle : angle + 10'd256;
+    assign is_one = at[8] && at[7:0] == 8'd0;
+    assign last   = step == 5'd30;
 
-    logic        one_1;  // the sine that is being read is one
-    logic        minus_1;
-    logic [31:0] size;
-    logic [31:0] factor;
-    assign mirrored_zero = at[8] && at[7:0] == 8'd0;
-    assign size   = one_1 ? 32'h4000_0000 : word;
-    assign factor = minus_1 ? -size : size;
+    always_comb begin
+        case (state)
+            ADD_B: read_address = {2'b10, right, k, 2'd2};
+            ADD_C: read_address = {2'b10, right, k, last ? 2'd0 : 2'd1};
+            COSINE, FIRST, OFFSET: read_address = {2'b10, right, k, 2'd1};
+            default: read_address = {1'b0, at[8] ? -at[7:0] : at[7:0]};
+        endcase
+    end
 
-    logic        [31:0] cosine, sine;
-    logic        [31:0] a, b, c;
-    logic signed [33:0] sum;
-    logic        [ 4:0] step;
-    logic        [ 3:0] k;
+    logic        was_one;  // the sine that is being read
+    logic        was_minus;
+    logic [30:0] cosine, sine, size;
+    logic        cosine_minus, sine_minus;
+    assign size = was_one ? 31'h4000_0000 : word[30:0];
 
-    // What a bit adds. Bits 31 and 30 of a factor in [-1, 1] together weigh -1, 0 or 1.
-    logic               last;
-    logic        [31:0] operand;
-    logic               present, negative;
-    logic signed [33:0] added;
-    assign last     = step == 5'd30;
-    assign operand  = state == ADD_B ? b : c;
-    assign present  = state == ADD_B ? cosine[0] : sine[0];
-    assign negative = last && (state == ADD_B ? cosine[1] : sine[1]);
-    assign added    = present ? {{2{operand[31]}}, operand} ^ {34{negative}} : '0;
+    logic signed [33:0] sum, added, total;
+    logic               present, minus, half;
+    assign present = state == ADD_B ? cosine[0] : sine[0];
+    assign minus   = state == ADD_B ? cosine_minus : sine_minus;
+    assign added   = present ? {{2{word[31]}}, word} ^ {34{minus}} : '0;
+    assign total   = sum + added + 34'(signed'({1'b0, present && minus}));
 
-    logic signed [33:0] total;
-    logic               half;
-    // The half that rounds is worth one at bit 29, and a negative operand's complement lacks one.
-    assign half  = state == ADD_B ? (present && negative) || step == 5'd29 : present && negative;
-    assign total = sum + added + 34'(half);
+    assign m_address = k;
+    assign m_write   = state == OFFSET;
+    assign m_data    = word + sum[31:0] + 32'(half);
 
     always_ff @(posedge clk) begin
-        m_write <= 1'b0;
-        done    <= 1'b0;
+        done      <= 1'b0;
+        was_one   <= is_one;
+        was_minus <= at[9];
         case (state)
             IDLE: begin
-                k            <= '0;
-                read_address <= {1'b0, at[8] ? -at[7:0] : at[7:0]};
-                one_1        <= mirrored_zero;
-                minus_1      <= at[9];
+                k <= '0;
                 if (start) state <= SINE;
             end
-            SINE: state <= COSINE;
+            SINE: begin
+                sine       <= size;
+                sine_minus <= was_minus;
+                state      <= COSINE;
+            end
             COSINE: begin
-                sine         <= factor;
-                read_address <= {1'b0, at[8] ? -at[7:0] : at[7:0]};
-                one_1        <= mirrored_zero;
-                minus_1      <= at[9];
-                state        <= COSINE_SEEN;
+                cosine       <= size;
+                cosine_minus <= was_minus;
+                state        <= FIRST;
             end
-            COSINE_SEEN: state <= READ_A;
-            READ_A: begin
-                if (k == '0) cosine <= factor;
-                read_address <= {2'b10, right, k, 2'd0};
-                state        <= READ_B;
-            end
-            READ_B: begin
-                read_address <= {2'b10, right, k, 2'd1};
-                state        <= READ_C;
-            end
-            READ_C: begin
-                a            <= word;
-                read_address <= {2'b10, right, k, 2'd2};
-                state        <= SEEN_B;
-            end
-            SEEN_B: begin
-                b     <= word;
-                state <= SEEN_C;
-            end
-            SEEN_C: begin
-                c     <= word;
+            FIRST: begin
                 sum   <= '0;
                 step  <= '0;
                 state <= ADD_B;
@@ -134,31 +116,24 @@ module spin #(
             end
             ADD_C: begin
                 sum    <= last ? total : total >>> 1;
+                // Of all bits that drop out, that of step 29 is worth a half.
+                if (!last) half <= total[0];
                 step   <= step + 1'b1;
-                // Turned a bit further; after 32 turns both are where they were.
-                cosine <= {cosine[0], cosine[31:1]};
-                sine   <= {sine[0], sine[31:1]};
+                // 31 bits, so after the last step both are where they were.
+                cosine <= {cosine[0], cosine[30:1]};
+                sine   <= {sine[0], sine[30:1]};
                 state  <= last ? OFFSET : ADD_B;
             end
             OFFSET: begin
-                m_write   <= 1'b1;
-                m_address <= k;
-                m_data    <= a + sum[31:0];
-                cosine    <= {cosine[0], cosine[31:1]};
-                sine      <= {sine[0], sine[31:1]};
-                state     <= NEXT;
-            end
-            NEXT: begin
                 k     <= k + 1'b1;
                 done  <= k == 4'd15;
-                state <= k == 4'd15 ? IDLE : READ_A;
+                state <= k == 4'd15 ? IDLE : FIRST;
             end
             default: state <= IDLE;
         endcase
         if (!rst_n) begin
-            state   <= IDLE;
-            m_write <= 1'b0;
-            done    <= 1'b0;
+            state <= IDLE;
+            done  <= 1'b0;
         end
     end
 

@@ -7,8 +7,12 @@
 //!
 //! The power of two is chosen so that no row can leave `ClipMatrix`'s range at any angle.
 
-use scanout::math::{Angle, Mat4, tables::SINE};
+use std::path::Path;
+
+use scanout::camera::{Camera, projection};
+use scanout::math::{Angle, Mat4, Q16, Vec3, tables::SINE};
 use scanout::transform::ClipMatrix;
+use scanout_assets::{LoadOptions, bake, load};
 
 /// Steps of a turn.
 pub const STEPS: u32 = 1024;
@@ -88,4 +92,43 @@ impl Spin {
     pub fn hex(left: &Spin, right: &Spin) -> String {
         Spin::table(left, right).map(|word| format!("{word:08x}\n")).concat()
     }
+}
+
+/// Models in `boards/models`.
+pub const BOARD_MODELS: [&str; 2] = ["teapot", "torus"];
+
+/// The spin of a board's model: seen from a little above through 45 degrees, 4:3, turning about a tilted axis.
+///
+/// # Panics
+/// Never: the camera is valid.
+pub fn board_spin() -> (Camera, Spin) {
+    let lens = projection::perspective(
+        Angle::from_degrees_f64(45.0),
+        Q16::from_ratio(4, 3),
+        Q16::from_ratio(1, 10),
+        Q16::from_int(20),
+    );
+    let eye = Vec3::from_f64([0.0, 0.9, 2.9]);
+    let camera = lens.and_then(|lens| Camera::look_at(eye, Vec3::ZERO, Vec3::Y, lens));
+    let camera = camera.expect("a valid camera");
+    let spin = Spin::new(&camera.projection.mul(&camera.view), [0.2, 1.0, 0.0], 1.0);
+    (camera, spin)
+}
+
+/// File names and contents for a model of the repository at `root`: vertices and edges as `scanout bake` writes them, and the spin
+/// table.
+///
+/// # Panics
+/// When the model cannot be read.
+pub fn board_tables(root: &Path, name: &str) -> Vec<(String, String)> {
+    let path = root.join("models").join(name).with_extension("obj");
+    let model = load(&path, &LoadOptions::default()).unwrap_or_else(|e| panic!("{e}"));
+    let tables = bake::hex_files(&model).unwrap_or_else(|e| panic!("{e}"));
+    let mut files: Vec<(String, String)> = tables
+        .into_iter()
+        .filter(|(name, _)| name == "vertices.hex" || name == "edges.hex")
+        .collect();
+    let (_, spin) = board_spin();
+    files.push(("spin.hex".into(), Spin::hex(&spin, &spin)));
+    files
 }
