@@ -4,7 +4,8 @@
 use core::arch::x86_64::{__cpuid, __cpuid_count, _xgetbv};
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use super::{EIGHT, Lanes, Pixels, Seen, Source, Triangles, facing, planes, project, strips};
+use super::{EIGHT, Lanes, Pixels, Plain, Seen, Source, Triangles};
+use super::{edges, facing, planes, project, strips};
 use crate::transform::{ClipMatrix, Vertex, Viewport};
 
 /// Proof that AVX2, FMA and POPCNT can be used.
@@ -112,6 +113,22 @@ impl Avx2 {
                 call!(strips::textured(triangles, lanes, texture, flat, pixels))
             }
         }
+    }
+
+    /// The highest and the lowest end (Q28.4) of edges whose ends are all inside a frame of this width and height (1/16 pixel);
+    /// `None` where one is not, or is to be clipped, or an index is out of range.
+    pub fn heights(
+        self,
+        groups: &[[[u16; 2]; EIGHT]],
+        vertices: &[Vertex],
+        size: [u32; 2],
+    ) -> Option<(i32, i32)> {
+        call!(edges::heights(groups, vertices, size))
+    }
+
+    /// Draws edges of one value; the bits of those drawn. Others have an end outside or more than 1024 steps.
+    pub fn lines(self, edges: &[[u16; 2]; EIGHT], vertices: &[Vertex], to: &mut Plain) -> u32 {
+        call!(edges::lines(edges, vertices, to))
     }
 
     /// Fills memory.

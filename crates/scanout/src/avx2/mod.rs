@@ -13,6 +13,7 @@
 //! | `project` | positions to screen vertices, 4 at a time | `ClipMatrix::apply`, `Viewport::project` |
 //! | `facing` | which of 8 triangles can be seen | `ObjectPass::triangles` |
 //! | `planes` | edges and planes of 8 triangles | `Triangle::new`, `Triangle::plane`, `TextureSetup::new` |
+//! | `edges` | edges of one colour, 8 at a time | `Field::fill` |
 //! | `strips` | their pixels, 16 side by side | `Target::fill_runs` |
 //!
 //! The token [`Avx2`] is proof that the processor can; elsewhere, and without the feature `simd`, there is none.
@@ -22,6 +23,8 @@
 
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 mod detect;
+#[cfg(all(feature = "simd", target_arch = "x86_64"))]
+mod edges;
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 mod facing;
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
@@ -145,6 +148,21 @@ pub struct Pixels<'m> {
     pub width: usize,
     /// The first row.
     pub top: i32,
+}
+
+/// 16-bit colour memory that lines of one value are drawn in.
+#[derive(Debug)]
+pub struct Plain<'m> {
+    /// `rows` times `width` and more.
+    pub cells: &'m mut [u16],
+    /// Width of a row.
+    pub width: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// The first row.
+    pub top: i32,
+    /// What is stored.
+    pub value: u16,
 }
 
 /// Lanes of a group.

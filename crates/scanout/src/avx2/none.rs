@@ -1,6 +1,6 @@
 //! No AVX2: the token does not exist, so nothing of this is ever called.
 
-use super::{EIGHT, Lanes, Pixels, Seen, Source, Triangles};
+use super::{EIGHT, Lanes, Pixels, Plain, Seen, Source, Triangles};
 use crate::transform::{ClipMatrix, Vertex, Viewport};
 
 /// Cannot be had here.
@@ -41,6 +41,14 @@ impl Avx2 {
     }
     /// Not reached.
     pub fn draw(self, _: &Source, _: &Triangles, _: Lanes, _: &[[u8; 3]; EIGHT], _: &mut Pixels) {
+        match self {}
+    }
+    /// Not reached.
+    pub fn heights(self, _: &[[[u16; 2]; EIGHT]], _: &[Vertex], _: [u32; 2]) -> Option<(i32, i32)> {
+        match self {}
+    }
+    /// Not reached.
+    pub fn lines(self, _: &[[u16; 2]; EIGHT], _: &[Vertex], _: &mut Plain) -> u32 {
         match self {}
     }
     /// Not reached.

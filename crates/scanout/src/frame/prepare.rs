@@ -452,6 +452,12 @@ impl ObjectPass<'_> {
             |v: &Vertex| v.flags & CLIP == 0 && (v.x as u32) < width && (v.y as u32) < height;
         for (k, edges) in self.object.mesh.edges.chunks(LONGEST).enumerate() {
             let mut first = k * LONGEST;
+            if let (Some(avx2), (groups, [])) = (self.avx2, edges.as_chunks::<EIGHT>())
+                && let Some((high, low)) = avx2.heights(groups, vertices, [width, height])
+            {
+                self.edge_run(first, edges.len(), high, low, list);
+                continue;
+            }
             // The run's length, its highest and its lowest end.
             let (mut length, mut high, mut low) = (0, i32::MAX, 0);
             for (i, edge) in (k * LONGEST..).zip(edges) {

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::Traversal;
 use super::fragment::Shader;
-use crate::avx2::{Avx2, Pixels, STRIP};
+use crate::avx2::{Avx2, EIGHT, Pixels, Plain, STRIP};
 use crate::depth;
 use crate::interpolate::Plane;
 use crate::lanes::{self, LANES, U16x8, U32x8};
@@ -292,6 +292,25 @@ impl<F: PixelFormat> Target<'_, F> {
         rgb: [u8; 3],
     ) -> bool {
         let (clip, width, rows) = (self.clip_rect(), self.width, self.rows.clone());
+        let (groups, rest) = edges.as_chunks::<EIGHT>();
+        if let (Some(avx2), false) = (self.avx2(), self.dither)
+            && !groups.is_empty()
+            && F::rgb565(self.colour).is_some()
+        {
+            let (rows, top, value) = (rows.len(), rows.start, Rgb565::encode(rgb));
+            for group in groups {
+                let Some(cells) = F::rgb565(self.colour) else { return false };
+                let done =
+                    avx2.lines(group, vertices, &mut Plain { cells, width, rows, top, value });
+                let mut left = !done & 0xff;
+                while left != 0 {
+                    let edge = &group[left.trailing_zeros() as usize % EIGHT];
+                    self.draw_lines(core::slice::from_ref(edge), vertices, rgb);
+                    left &= left - 1;
+                }
+            }
+            return rest.is_empty() || self.draw_lines(rest, vertices, rgb);
+        }
         let (false, Some(cells)) = (self.dither, F::pixels(self.colour)) else { return false };
         let value = F::encode(rgb);
         let Some(field) = Field::new(width, clip) else { return false };

@@ -11,41 +11,101 @@
 //! `0..=m`. As `i m <= 2^20` the excess is not negative, and it is below `1 / (2 n)` as `2^20 2 n <= 2^31`; so it never
 //! reaches the next whole number. The slope of `m = n` fits 32 bits too.
 //!
-//! The low 32 bits are an accumulator whose carry is the step sideways: an addition with carry on a PC, and no comparison.
+//! So a pixel costs an addition, a shift and a store, in a line that isn't steep a multiplication too, and no comparison.
 //! Lines are drawn from the top down. Where that is backwards, `q` rounds halves the other way, so
 //! `floor((2 m i + n - 1) / (2 n))` is wanted: the same with `2^31 / n` less.
 //!
-//! # Runs
-//!
-//! A long line that isn't steep is drawn row by row. Row `k` begins at the smallest `i` with `q(i) = k`:
-//!
-//! ```text
-//! i(k) = ceil(n (2 k - 1) / (2 m))    0 < k <= m;      i(0) = 0,  i(m + 1) = n + 1
-//!      = (2^20 - 1 + floor(s / 2) + (k - 1) s) >> 20,      s = floor(n 2^20 / m)
-//! ```
-//!
-//! **Proof.** `n (2 k - 1) / (2 m)` is a multiple of `1 / (2 m)`, and the sum without `2^20 - 1` lacks at most `k` units of
-//! `2^-20` of it. What is whole stays so as `k < 2^20`; what isn't is above a whole number by `1 / (2 m)` or more, and still
-//! by a unit or more without those `k`, as `2 m (m + 1) <= 2^20` for `m <= 700`.
-//!
-//! So all rows but the first and the last have `floor(n / m)` pixels or one more, by the carry of an accumulator. Two stores of
-//! `W` neighbours, which may overlap, draw a row of `W` to `2 W` pixels.
+//! Every pixel lies in the box of both ends, so that one test, of the box's last cell, serves all of a line.
 //!
 //! Hardware and lines that need clipping use the error term instead.
+
+// Stores without a test for each, see `Cells`; without the feature `simd` each is tested.
+#![cfg_attr(feature = "simd", allow(unsafe_code))]
 
 use core::hint::black_box;
 
 use super::{ClipRect, LineEnd, walk_cells};
 
-/// Lines with fewer steps aren't worth the set-up of runs.
-const WORTH_RUNS: u32 = 24;
+/// The cells of one line.
+struct Cells<'a, T> {
+    cells: &'a mut [T],
+    value: T,
+}
+
+impl<T: Copy> Cells<'_, T> {
+    /// Stores the value.
+    #[inline(always)]
+    fn put(&mut self, at: usize) {
+        debug_assert!(at < self.cells.len());
+        #[cfg(feature = "simd")]
+        // SAFETY: `Field::fill` draws only lines whose box ends inside the buffer, and a line stays in its box: its ends are inside, and
+        // by the proof above every step sideways, of `0..=n`, is within `0..=m`.
+        unsafe {
+            *self.cells.get_unchecked_mut(at) = self.value;
+        }
+        #[cfg(not(feature = "simd"))]
+        if let Some(cell) = self.cells.get_mut(at) {
+            *cell = self.value;
+        }
+    }
+
+    /// A steep line: the index and its fraction are one number.
+    #[inline(always)]
+    fn steep(&mut self, mut at: u64, step: u64, count: u32) {
+        let mut next = || {
+            self.put((at >> 32) as usize);
+            at = at.wrapping_add(step);
+        };
+        for _ in 0..count / 4 {
+            next();
+            next();
+            next();
+            next();
+        }
+        if count & 2 != 0 {
+            next();
+            next();
+        }
+        if count & 1 != 0 {
+            next();
+        }
+    }
+
+    /// A line that isn't steep: the carries of a fraction are steps down.
+    #[inline(always)]
+    fn flat(
+        &mut self,
+        mut at: usize,
+        side: usize,
+        down: usize,
+        mut fraction: u32,
+        mut slope: u32,
+        count: u32,
+    ) {
+        for _ in 0..count / 4 {
+            // Without this the compiler would add multiples of the slope to one fraction, and compare to find the carries.
+            slope = black_box(slope);
+            for _ in 0..4 {
+                self.put(at);
+                let (sum, carry) = fraction.overflowing_add(slope);
+                fraction = sum;
+                at = at.wrapping_add(if carry { down } else { side });
+            }
+        }
+        for _ in 0..count % 4 {
+            self.put(at);
+            let (sum, carry) = fraction.overflowing_add(slope);
+            fraction = sum;
+            at = at.wrapping_add(if carry { down } else { side });
+        }
+    }
+}
 
 /// Stores `value` in every cell of the line from `a` to `b` inside `clip`, in the buffer of
 /// [`walk_cells`]: `cells[(y - clip.y0) * stride + (x - clip.x0)]`. Cells beyond the buffer's end
 /// are left out. Depth and colour of the ends aren't used.
 ///
-/// Cost: one 32-bit division a line. On x86-64, two bytes a cell: about 75 instructions a line and 6 to 7 a pixel, fewer in a
-/// long line that is far from 45 degrees.
+/// Cost: one 32-bit division a line. On x86-64, two bytes a cell: COST.
 #[inline]
 pub fn fill_cells<T: Copy>(
     cells: &mut [T],
@@ -100,7 +160,8 @@ impl Field {
         fits.then_some(Self { stride: stride as u32, width: width as u32, height: height as u32 })
     }
 
-    /// [`fill_cells`] for ends as column and row; false, and nothing is drawn, where an end is outside or the line is long.
+    /// [`fill_cells`] for ends as column and row; false, and nothing is drawn, where an end is outside, the line is long or the
+    /// buffer short.
     #[inline(always)]
     pub fn fill<T: Copy>(self, cells: &mut [T], a: [u32; 2], b: [u32; 2], value: T) -> bool {
         let Self { stride, width, height } = self;
@@ -112,243 +173,36 @@ impl Field {
         let dy = b[1] - a[1];
         let right = b[0].wrapping_sub(a[0]) as i32;
         let dx = right.unsigned_abs();
+        let last = b[1] * stride + a[0].max(b[0]);
+        if dx.max(dy) > LONGEST || last as usize >= cells.len() {
+            return false;
+        }
         let index = a[1] * stride + a[0];
+        let mut cells = Cells { cells, value };
         if dy > dx {
-            if dy > LONGEST {
-                return false;
-            }
             let slope = u32::MAX / dy * dx;
             // To the left the index is the whole part of a number that shrinks from just below the next whole one.
             let back = i64::from(right >> 31) as u64;
             let at = u64::from(index) << 32 | u64::from(HALF ^ back as u32);
             let step = (u64::from(stride) << 32)
                 .wrapping_add((u64::from(slope) ^ back).wrapping_sub(back));
-            fill_steep(cells, at, step, dy + 1, value);
-        } else if (WORTH_RUNS..4096).contains(&dx)
-            && dy * 4 <= dx * 3
-            && dy <= MOST_RUNS
-            && ((b[1] * stride + b[0].max(a[0])) as usize) < cells.len()
-        {
-            let (index, across) = if right < 0 {
-                (b[1] * stride + b[0], stride.wrapping_neg())
-            } else {
-                (index, stride)
-            };
-            fill_runs(cells, index, across, dx, dy, value);
-        } else if dx > LONGEST {
-            return false;
-        } else {
-            let inverse = u32::MAX / dx.max(1);
-            let slope = inverse * dy;
-            let (at, across) = (index, stride);
-            if right < 0 {
-                let fraction = HALF - inverse / 2;
-                let trace = Trace { at, across, fraction, slope, value };
-                trace.draw::<true>(cells, dx + 1);
-            } else {
-                let trace = Trace { at, across, fraction: HALF, slope, value };
-                trace.draw::<false>(cells, dx + 1);
-            }
+            cells.steep(at, step, dy + 1);
+            return true;
         }
+        let inverse = u32::MAX / dx.max(1);
+        let side = if right < 0 { usize::MAX } else { 1 };
+        let fraction = if right < 0 { HALF - inverse / 2 } else { HALF };
+        let down = side.wrapping_add(stride as usize);
+        cells.flat(index as usize, side, down, fraction, inverse * dy, dx + 1);
         true
     }
 }
 
 /// The largest `n` of this path.
-const LONGEST: u32 = 1024;
+pub(crate) const LONGEST: u32 = 1024;
 
 /// `2^31 + d`
-const HALF: u32 = (1 << 31) + (1 << 20);
-
-/// A steep line: the index and its fraction in one number, which never falls, so that beyond the end is the end.
-#[inline(never)]
-fn fill_steep<T: Copy>(cells: &mut [T], mut at: u64, step: u64, count: u32, value: T) {
-    let mut pixel = |at: u64| cells.get_mut((at >> 32) as usize).map(|cell| *cell = value);
-    for _ in 0..count / 4 {
-        let [second, third, fourth] = [1, 2, 3].map(|i| at.wrapping_add(step.wrapping_mul(i)));
-        if pixel(at).is_none()
-            || pixel(second).is_none()
-            || pixel(third).is_none()
-            || pixel(fourth).is_none()
-        {
-            return;
-        }
-        at = at.wrapping_add(step.wrapping_mul(4));
-    }
-    if count & 2 != 0 {
-        let second = at.wrapping_add(step);
-        if pixel(at).is_none() || pixel(second).is_none() {
-            return;
-        }
-        at = second.wrapping_add(step);
-    }
-    if count & 1 != 0 {
-        let _ = pixel(at);
-    }
-}
-
-/// A line that isn't steep from the top down, pixel by pixel.
-struct Trace<T> {
-    at: u32,
-    /// What a carry adds.
-    across: u32,
-    fraction: u32,
-    slope: u32,
-    value: T,
-}
-
-impl<T: Copy> Trace<T> {
-    /// Draws `count` pixels. The index of each is never below that of the one before, or, with `LEFT`, never more
-    /// than one below it.
-    #[inline(always)]
-    fn draw<const LEFT: bool>(mut self, cells: &mut [T], count: u32) {
-        let mut fours = count / 4;
-        while fours > 0 {
-            // Without this the compiler would add multiples of the slope to one fraction, and lose the carries.
-            self.slope = black_box(self.slope);
-            if !self.block::<4, LEFT>(cells) {
-                return self.rest::<LEFT>(cells, fours * 4 + count % 4);
-            }
-            fours -= 1;
-        }
-        if count & 2 != 0 && !self.block::<2, LEFT>(cells) {
-            return self.rest::<LEFT>(cells, count & 3);
-        }
-        if count & 1 != 0
-            && let Some(cell) = cells.get_mut(self.at as usize)
-        {
-            *cell = self.value;
-        }
-    }
-
-    /// The next `N` pixels if they are well inside the buffer. One test for all, of the last: the compiler can prove the
-    /// others from it.
-    #[inline(always)]
-    fn block<const N: usize, const LEFT: bool>(&mut self, cells: &mut [T]) -> bool {
-        // Steps to the left are 0 or `across`, some columns to the right of where they should be.
-        let column = |j: usize| if LEFT { N - 1 - j } else { 0 };
-        let mut fraction = self.fraction;
-        let mut at = self.at.wrapping_sub(column(0) as u32) as usize;
-        let mut places = [0; N];
-        for place in &mut places {
-            *place = at;
-            let (sum, carry) = fraction.overflowing_add(self.slope);
-            fraction = sum;
-            at += usize::from(!LEFT) + if carry { self.across as usize } else { 0 };
-        }
-        if places[N - 1] + column(0) >= cells.len() {
-            return false;
-        }
-        for j in (0..N).rev() {
-            cells[places[j] + column(j)] = self.value;
-        }
-        self.fraction = fraction;
-        self.at = (at as u32).wrapping_sub(if LEFT { 1 } else { 0 });
-        true
-    }
-
-    /// `count` pixels near the ends of the buffer.
-    #[cold]
-    #[inline(never)]
-    fn rest<const LEFT: bool>(self, cells: &mut [T], count: u32) {
-        let Self { mut at, across, mut fraction, slope, value } = self;
-        for _ in 0..count {
-            if let Some(cell) = cells.get_mut(at as usize) {
-                *cell = value;
-            }
-            let (sum, carry) = fraction.overflowing_add(slope);
-            fraction = sum;
-            let step = if LEFT { u32::MAX } else { 1 };
-            at = at.wrapping_add(step).wrapping_add(if carry { across } else { 0 });
-        }
-    }
-}
-
-/// The largest `m` for which 20 fraction bits suffice.
-const MOST_RUNS: u32 = 700;
-
-/// A line that isn't steep, row by row; all its cells are in the buffer and their indices fit 32 bits.
-#[inline(never)]
-fn fill_runs<T: Copy>(cells: &mut [T], index: u32, across: u32, n: u32, m: u32, value: T) {
-    let mut fill = |from: u32, to: u32| {
-        if let Some(cells) = cells.get_mut(from as usize..to as usize) {
-            cells.fill(value);
-        }
-    };
-    if m == 0 {
-        return fill(index, index + n + 1);
-    }
-    let slope = (n << 20) / m;
-    let first = (slope / 2 + ((1 << 20) - 1)) >> 20;
-    fill(index, index + first);
-    let run = Run {
-        at: index.wrapping_add(first).wrapping_add(across),
-        across,
-        length: slope >> 20,
-        fraction: (slope / 2 + ((1 << 20) - 1)) << 12,
-        slope: slope << 12,
-        count: m - 1,
-    };
-    let at = match run.length {
-        1 => run.fill::<T, 1>(cells, value),
-        2..4 => run.fill::<T, 2>(cells, value),
-        4..8 => run.fill::<T, 4>(cells, value),
-        8..16 => run.fill::<T, 8>(cells, value),
-        _ => run.fill_long(cells, value),
-    };
-    let end = index.wrapping_add(n + 1).wrapping_add(across.wrapping_mul(m));
-    if let Some(cells) = cells.get_mut(at as usize..end as usize) {
-        cells.fill(value);
-    }
-}
-
-/// The rows between the first and the last.
-struct Run {
-    at: u32,
-    across: u32,
-    length: u32,
-    fraction: u32,
-    slope: u32,
-    count: u32,
-}
-
-impl Run {
-    /// Rows of `W` to `2 W` cells. Where the last begins.
-    #[inline(always)]
-    fn fill<T: Copy, const W: usize>(self, cells: &mut [T], value: T) -> u32 {
-        let Run { mut at, across, length, mut fraction, slope, count } = self;
-        let apart = (length as usize).wrapping_sub(W) as u32;
-        let onwards = across.wrapping_add(W as u32);
-        for _ in 0..count {
-            let (sum, carry) = fraction.overflowing_add(slope);
-            fraction = sum;
-            let first = at as usize;
-            let second = first + apart as usize + usize::from(carry);
-            // The later one first: it proves to the compiler that the other one is inside too.
-            for from in [second, first] {
-                let Some(cells) = cells.get_mut(from..from + W) else { return at };
-                cells.fill(value);
-            }
-            at = (second as u32).wrapping_add(onwards);
-        }
-        at
-    }
-
-    #[inline(always)]
-    fn fill_long<T: Copy>(self, cells: &mut [T], value: T) -> u32 {
-        let Run { mut at, across, length, mut fraction, slope, count } = self;
-        for _ in 0..count {
-            let (sum, carry) = fraction.overflowing_add(slope);
-            fraction = sum;
-            let end = at as usize + length as usize + usize::from(carry);
-            if let Some(cells) = cells.get_mut(at as usize..end) {
-                cells.fill(value);
-            }
-            at = (end as u32).wrapping_add(across);
-        }
-        at
-    }
-}
+pub(crate) const HALF: u32 = (1 << 31) + (1 << 20);
 
 #[cfg(test)]
 mod tests {
@@ -442,19 +296,6 @@ mod tests {
                     let q = |half: u32| (u64::from(half) + u64::from(i) * slope) >> 32;
                     assert_eq!(q(HALF), u64::from((2 * m * i + n) / (2 * n)));
                     assert_eq!(q(HALF - inverse / 2), u64::from((2 * m * i + n - 1) / (2 * n)));
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn runs_begin_where_they_should() {
-        for n in (1..4096u32).step_by(41).chain([4095]) {
-            for m in (1..=MOST_RUNS.min(n)).step_by(17).chain([MOST_RUNS.min(n)]) {
-                let slope = u64::from((n << 20) / m);
-                for k in 1..=u64::from(m) {
-                    let begin = ((1 << 20) - 1 + slope / 2 + (k - 1) * slope) >> 20;
-                    assert_eq!(begin, (u64::from(n) * (2 * k - 1)).div_ceil(2 * u64::from(m)));
                 }
             }
         }
