@@ -60,8 +60,8 @@ impl DelayNs for Clock {
 /// The second hart.
 pub static HARTS: Mailbox = Mailbox::new();
 
-/// Memory for system B's largest models: 500 positions, 500 quads, 250 x 250 texels; bands of 8 lines.
-type Memory = Storage<500, 1000, 62_500, 2560>;
+/// Memory for system B's largest models: 500 positions, 500 quads, 250 x 250 texels; bands of 6 lines.
+type Memory = Storage<500, 1000, 62_500, 1920>;
 
 struct Once(UnsafeCell<Memory>);
 

@@ -293,7 +293,7 @@ impl Pc {
 }
 
 /// As large as system B's: 500 positions, 500 quads; a texture of 250 x 250.
-pub type Memory = Storage<500, 1000, 62_500, 2560>;
+pub type Memory = Storage<500, 1000, 62_500, 1920>;
 
 pub fn new_storage() -> Box<Memory> {
     Box::new(Memory::new())
