@@ -96,6 +96,18 @@ pub fn picture(stage: &Stage, shot: &Shot, options: &Options) -> Result<Picture>
     Ok(Picture { width, height, pixels: words })
 }
 
+/// Draws one eye's scene: its colour memory, `F::words(width)` words a row.
+///
+/// # Errors
+/// What the pipeline refuses.
+pub fn scene<F: PixelFormat>(
+    scene: &scanout::scene::Scene,
+    size: (u16, u16),
+    options: &Options,
+) -> Result<Vec<F::Word>> {
+    Ok(pipeline::draw::<F>(scene, size, options.lines(size.1), options)?.0)
+}
+
 fn frame_as<F: PixelFormat>(stage: &Stage, shot: &Shot, options: &Options) -> Result<Frame> {
     let (words, reports) = words::<F>(stage, shot, options)?;
     let (width, height) = shot.size;

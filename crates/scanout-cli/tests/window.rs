@@ -81,13 +81,73 @@ fn a_recording_of_a_replay_is_the_recording() {
     assert_eq!(text, expected);
 }
 
+/// Writes a picture of 320 x 240 with marker aruco4x4_50:0, 48 pixels wide, its middle `dx`, `dy` from the picture's; none without.
+fn frame(folder: &std::path::Path, number: usize, middle: Option<(i32, i32)>) {
+    const ROWS: [u8; 4] = [0b1011, 0b0101, 0b0011, 0b0010];
+    let mut bytes = b"P5\n320 240\n255\n".to_vec();
+    for i in 0..320 * 240 {
+        let cell = middle.map(|(dx, dy)| {
+            [i % 320 - 160 - dx + 24, i / 320 - 120 - dy + 24].map(|at| at.div_euclid(8))
+        });
+        bytes.push(match cell {
+            Some([x @ 1..=4, y @ 1..=4]) if ROWS[y as usize - 1] >> (4 - x) & 1 == 1 => 225,
+            Some([0..=5, 0..=5]) => 35,
+            Some([-1..=6, -1..=6]) => 225,
+            _ => 140,
+        });
+    }
+    std::fs::write(folder.join(format!("{number}.pgm")), bytes).unwrap();
+}
+
+#[test]
+fn a_marker_in_a_film_moves_the_viewer() {
+    let (film, csv) = (scratch("cap"), scratch("cap.csv"));
+    let _ = std::fs::remove_dir_all(&film);
+    std::fs::create_dir_all(&film).unwrap();
+    for (number, middle) in [Some((0, 0)), Some((60, 0)), None, Some((0, -40))].iter().enumerate() {
+        frame(&film, number, *middle);
+    }
+    let pictures = scratch("cap-pictures");
+    let out = ["-o", pictures.to_str().unwrap(), "--record", csv.to_str().unwrap()];
+    let line =
+        ["window", "--head", "camera", "--source", film.to_str().unwrap(), "--source-fps", "1"];
+    let rest = ["--fps", "10", "--resolution", "20,12", "--camera-place", "0,150,0", "--no-filter"];
+    let output = run(&[&line[..], &rest, &out].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stderr(&output).contains("aruco4x4_50:0 is in 3 of 4 frames"), "{}", stderr(&output));
+    // 320 pixels are 60 degrees, so the focal length is 277.13 pixels, and 50 mm in 48 pixels are 288.67 mm away; the picture's right
+    // is the viewer's left.
+    let expected = [
+        (0.0, Some([0.0, 150.0])),
+        (1.0, Some([-62.5, 150.0])),
+        (2.0, None),
+        (3.0, Some([0.0, 191.67])),
+    ];
+    let text = std::fs::read_to_string(&csv).unwrap();
+    assert_eq!(text.lines().count(), 5, "{text}");
+    for (line, (time, place)) in text.lines().skip(1).zip(expected) {
+        let fields: Vec<f64> = line.split(',').flat_map(str::parse).collect();
+        assert!((fields[0] - time).abs() < 0.11, "{line}");
+        match place {
+            None => assert_eq!(fields.len(), 1, "{line}"),
+            Some([x, y]) => {
+                let off = [fields[1] - x, fields[2] - y, fields[3] - 288.67];
+                assert!(off.iter().all(|off| off.abs() < 1.5), "{line}: {off:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn wrong_lines_and_files_are_told() {
     let bad = scratch("bad-head.csv");
     std::fs::write(&bad, "time_s,x_mm,y_mm,z_mm\n0,1,2\n").unwrap();
     let bad = bad.to_str().unwrap();
-    let lines: [(&[&str], i32, &str); 9] = [
-        (&["--head", "camera"], 2, "--head camera: no such source; one of"),
+    let lines: [(&[&str], i32, &str); 12] = [
+        (&["--head", "phone"], 2, "--head phone: no such source; one of"),
+        (&["--head", "camera", "--marker", "aruco4x4_50:50"], 2, "no such marker; give"),
+        (&["--head", "camera", "--source", "no such film"], 1, "no such film"),
+        (&["--head", "camera", "--calibration", "no such.yaml"], 1, "no such.yaml: no such file"),
         (&["--head", "no such.csv"], 1, "no such.csv: no such file"),
         (&["--head", bad, "-o", "x.gif"], 1, "line 2: 3 fields; give"),
         (&["-o", "x.gif"], 2, "of a recording; give --head"),

@@ -56,7 +56,7 @@ pub struct WindowArgs {
     #[arg(long, value_name = "N", help_heading = "Screen")]
     pub frames: Option<u32>,
 
-    /// Who moves the viewer: mouse, keys, udp (opentrack), or a recorded FILE.csv
+    /// Who moves the viewer: mouse, keys, udp (opentrack), camera (a marker on your cap), or a recorded FILE.csv
     #[arg(long, value_name = "WHO", default_value = "mouse", help_heading = "Viewer")]
     pub head: String,
     /// Where opentrack's packets are awaited; 0.0.0.0:4242 lets other machines in
@@ -71,7 +71,7 @@ pub struct WindowArgs {
         help_heading = "Viewer"
     )]
     pub viewer: Triple,
-    /// Where the tracker's zero is, in the same measure [default: udp as --viewer, others 0,0,0]
+    /// Where the tracker's zero is, in the same measure; for camera, where your eyes are from the marker [default: udp as --viewer, others 0,0,0]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Viewer")]
     pub head_origin: Option<Triple>,
     /// Factors of the tracker's axes; -1,1,1 exchanges left and right
@@ -99,7 +99,32 @@ pub struct WindowArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Viewer")]
     pub record: Option<PathBuf>,
 
-    /// No window: a recording's pictures go to .gif, .png (animated), or a folder
+    /// Frames: /dev/video0, a folder of pictures, a y4m, MJPEG, PNG, JPEG or PPM file, or `-`
+    #[arg(long, value_name = "SOURCE", default_value = "/dev/video0", value_hint = ValueHint::AnyPath, help_heading = "Camera")]
+    pub source: PathBuf,
+    /// Frames a second, where the source doesn't say it
+    #[arg(long, value_name = "N", default_value_t = 30.0, value_parser = between(0.01, 1000.0), help_heading = "Camera")]
+    pub source_fps: f64,
+    /// The marker on your cap or glasses, DICTIONARY:NUMBER
+    #[arg(long, value_name = "MARKER", default_value = "aruco4x4_50:0", help_heading = "Camera")]
+    pub marker: String,
+    /// Side of its black square, mm
+    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = between(1.0, 1000.0), help_heading = "Camera")]
+    pub marker_size: f64,
+    /// Where the camera's lens is, mm from the middle of the screen [default: 10 above the upper edge]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Camera")]
+    pub camera_place: Option<Triple>,
+    /// How far the camera looks up, degrees; negative looks down
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, default_value_t = 0.0, value_parser = between(-89.0, 89.0), help_heading = "Camera")]
+    pub camera_tilt: f64,
+    /// The camera's calibration, OpenCV's YAML or JSON
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "fov", help_heading = "Camera")]
+    pub calibration: Option<PathBuf>,
+    /// Field of view across the picture's width, degrees, where there is no calibration
+    #[arg(long, value_name = "DEG", default_value_t = 60.0, value_parser = between(5.0, 150.0), help_heading = "Camera")]
+    pub fov: f64,
+
+    /// No window: a recording's or a film's pictures go to .gif, .png (animated), or a folder
     #[arg(short, long, value_name = "OUT", value_hint = ValueHint::AnyPath, help_heading = "Pictures")]
     pub output: Option<PathBuf>,
     /// Pictures a second in OUT, 1 - 100

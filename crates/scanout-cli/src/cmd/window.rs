@@ -8,12 +8,14 @@ use std::io::BufReader;
 use std::path::Path;
 use std::time::Instant;
 
+use scanout_head::camera::{self, Camera, Finder, Marker, Mount, Sight};
 use scanout_head::latency::Latency;
 use scanout_head::manual::Manual;
 use scanout_head::one_euro::Settings;
 use scanout_head::opentrack::Opentrack;
 use scanout_head::recording::{self, Replay};
 use scanout_head::screen::Screen;
+use scanout_head::source::Sample;
 use scanout_head::tracker::{self, Calibration, Tracker};
 
 use self::viewer::{Head, Record, Viewer};
@@ -36,7 +38,9 @@ Examples:\n  \
 scanout window --screen 520x290mm --fullscreen\n  \
 scanout window teapot.obj --head udp --stereo anaglyph-dubois --fullscreen\n  \
 scanout window --head udp --record head.csv\n  \
-scanout window --head head.csv -o head.gif";
+scanout window --head head.csv -o head.gif\n  \
+scanout marker aruco4x4_50:0 --size 50mm -o cap.pdf\n  \
+scanout window --head camera --marker aruco4x4_50:0 --marker-size 50 --camera-tilt -10";
 
 /// The screen of a 24-inch display, when nobody measured.
 const USUAL: [f64; 2] = [520.0, 290.0];
@@ -55,14 +59,14 @@ pub fn run(args: &WindowArgs) -> Result<()> {
     let epoch = Instant::now();
     if let Some(path) = &args.output {
         animation::container_for(path)?;
-        if !args.head.contains('.') {
+        if !args.head.contains('.') && !(args.head == "camera" && is_film(&args.source)) {
             return Err(Error::usage(
-                "pictures are written of a recording",
-                "give --head FILE.csv, recorded with --record",
+                "pictures are written of a recording or a film",
+                "give --head FILE.csv, recorded with --record, or --head camera --source FILM",
             ));
         }
     }
-    let (mut head, duration) = head(args, epoch)?;
+    let (mut head, duration) = head(args, &screen, epoch)?;
     let from_zero = args.head_origin.map(|origin| origin.0);
     let origin = from_zero.unwrap_or(if args.head == "udp" { args.viewer.0 } else { [0.0; 3] });
     let calibration = Calibration { origin, scale: args.head_scale.0 };
@@ -116,7 +120,7 @@ fn screen(args: &WindowArgs) -> Result<Screen> {
 }
 
 /// Who moves the viewer, and how long if it is a recording.
-fn head(args: &WindowArgs, epoch: Instant) -> Result<(Head, Option<f64>)> {
+fn head(args: &WindowArgs, screen: &Screen, epoch: Instant) -> Result<(Head, Option<f64>)> {
     match args.head.as_str() {
         "mouse" => Ok((Head::Hand(Manual::new(args.viewer.0), true), None)),
         "keys" => Ok((Head::Hand(Manual::new(args.viewer.0), false), None)),
@@ -133,15 +137,74 @@ fn head(args: &WindowArgs, epoch: Instant) -> Result<(Head, Option<f64>)> {
             let file = File::open(path).map_err(|error| Error::io(path, &error))?;
             let samples = recording::read(BufReader::new(file))
                 .map_err(|error| Error::Failed(format!("{name}: {error}")))?;
-            let replay = Replay::new(samples, args.output.is_none());
-            let duration = replay.duration();
-            Ok((Head::Other(Box::new(replay)), Some(duration)))
+            Ok(replayed(samples, args))
         }
+        "camera" => camera(args, screen, epoch),
         other => Err(Error::usage(
             format_args!("--head {other}: no such source"),
-            "one of mouse, keys, udp, or a recording's FILE.csv",
+            "one of mouse, keys, udp, camera, or a recording's FILE.csv",
         )),
     }
+}
+
+fn replayed(samples: Vec<Sample>, args: &WindowArgs) -> (Head, Option<f64>) {
+    let replay = Replay::new(samples, args.output.is_none());
+    let duration = replay.duration();
+    (Head::Other(Box::new(replay)), Some(duration))
+}
+
+/// Frames with an end and a pace of their own, unlike a webcam's or those of a pipe.
+fn is_film(source: &Path) -> bool {
+    !is_dash(source) && !source.starts_with("/dev")
+}
+
+/// A marker on the viewer, seen by a camera, or in a film of one.
+fn camera(args: &WindowArgs, screen: &Screen, epoch: Instant) -> Result<(Head, Option<f64>)> {
+    let marker = Marker::by_name(&args.marker, args.marker_size).ok_or_else(|| {
+        let what = format_args!("--marker {}: no such marker", args.marker).to_string();
+        Error::usage(what, "give DICTIONARY:NUMBER, such as aruco4x4_50:0 or apriltag36h11:5")
+    })?;
+    let sight = match &args.calibration {
+        None => Sight::FieldOfView(args.fov),
+        Some(path) => {
+            let text = std::fs::read_to_string(path).map_err(|error| Error::io(path, &error))?;
+            camera::calibration(&text)
+                .map_err(|error| Error::Failed(format!("{}:{error}", path.display())))?
+        }
+    };
+    let place = args.camera_place.map_or_else(
+        || {
+            let [_, height] = screen.size;
+            screen.at(0.0, 1.0 + 20.0 / height)
+        },
+        |place| place.0,
+    );
+    let mount = Mount { place, tilt: args.camera_tilt };
+    let mut finder = Finder::new(marker, sight, mount);
+    let failed = |error: camera::VideoError| Error::Failed(error.to_string());
+    if !is_film(&args.source) {
+        let camera = Camera::start(&args.source, args.source_fps, finder, epoch).map_err(failed)?;
+        return Ok((Head::Other(Box::new(camera)), None));
+    }
+    let film = camera::film(&args.source, args.source_fps, &mut finder, |error| {
+        narrate!("scanout: {error}");
+    });
+    let samples = film.map_err(failed)?;
+    let seen = samples.iter().filter(|sample| sample.eye.is_some()).count();
+    narrate!(
+        "scanout: {}: {} is in {seen} of {} frames",
+        args.source.display(),
+        args.marker,
+        samples.len()
+    );
+    if samples.is_empty() {
+        return Err(Error::failed(
+            args.source.display(),
+            "no frame can be read",
+            "give another film",
+        ));
+    }
+    Ok(replayed(samples, args))
 }
 
 /// The scene, and a shot whose window is the screen.
