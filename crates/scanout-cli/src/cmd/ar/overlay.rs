@@ -146,8 +146,6 @@ impl Overlay {
         };
         // Paper that hides but isn't seen: where two colours of it differ, it is the nearest, and the camera's pixel stays.
         let (black, white) = (draw(Some([0; 3]))?, draw(Some([255; 3]))?);
-            return Ok(Picture { pixels: white, ..frame });
-        }
         let pixels = black.iter().zip(&white).zip(&frame.pixels);
         let pixels = pixels.map(|((a, b), camera)| if a == b { *a } else { *camera }).collect();
         Ok(Picture { pixels, ..frame })
