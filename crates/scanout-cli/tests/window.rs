@@ -150,7 +150,7 @@ fn wrong_lines_and_files_are_told() {
         (&["--head", "camera", "--calibration", "no such.yaml"], 1, "no such.yaml: no such file"),
         (&["--head", "no such.csv"], 1, "no such.csv: no such file"),
         (&["--head", bad, "-o", "x.gif"], 1, "line 2: 3 fields; give"),
-        (&["-o", "x.gif"], 2, "of a recording; give --head"),
+        (&["-o", "x.gif"], 2, "of a recording or a film; give --head"),
         (&["--head", bad, "-o", "x.xyz"], 2, "no moving picture"),
         (&["--screen", "1x1mm"], 2, "each side must be 10 to 20000 mm"),
         (&["--tilt", "90"], 2, "not in -89 - 89"),

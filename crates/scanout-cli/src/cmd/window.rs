@@ -59,7 +59,8 @@ pub fn run(args: &WindowArgs) -> Result<()> {
     let epoch = Instant::now();
     if let Some(path) = &args.output {
         animation::container_for(path)?;
-        if !args.head.contains('.') && !(args.head == "camera" && is_film(&args.source)) {
+        let film = args.head == "camera" && is_film(&args.source);
+        if !args.head.contains('.') && !film {
             return Err(Error::usage(
                 "pictures are written of a recording or a film",
                 "give --head FILE.csv, recorded with --record, or --head camera --source FILM",

@@ -5,7 +5,6 @@
 //! [`World`], so that models in micrometres and in kilometres use the same bits.
 
 mod material;
-pub mod placed;
 pub mod vector;
 pub mod view;
 

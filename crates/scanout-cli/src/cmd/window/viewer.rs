@@ -64,13 +64,13 @@ impl Record {
         c: &Calibration,
     ) -> Result<()> {
         let sample = match sample {
-            Some(Sample { time, eye: Some(place) }) => {
-                self.lost = false;
-                Sample { time, eye: Some(c.apply(place)) }
-            }
-            _ if found || std::mem::replace(&mut self.lost, true) => return Ok(()),
-            _ => Sample { time: now, eye: None },
+            Some(Sample { time, eye: Some(place) }) => Sample { time, eye: Some(c.apply(place)) },
+            // The source's own word, or its silence; once.
+            Some(nobody) if !self.lost => nobody,
+            None if !found && !self.lost => Sample { time: now, eye: None },
+            _ => return Ok(()),
         };
+        self.lost = sample.eye.is_none();
         self.to.add(&sample).map_err(|error| Error::io(&self.path, &error))
     }
 
