@@ -281,7 +281,8 @@ module gpu #(
             WAIT: begin
                 clocks_now <= '0;
                 right      <= 1'b0;
-                if (draw_enable && run) begin
+                // Line memories are cleared for a picture that was wanted, so it must come.
+                if (draw_enable && (run || WAY == 2)) begin
                     state <= FILL;
                     // Run and commit may be written at once.
                     if (committed || commit) bank <= !bank;
@@ -435,6 +436,7 @@ module gpu #(
         .palette       (palette),
         .draw_clk      (clk),
         .draw_rst_n    (rst_n),
+        .draw_want     (run),
         .draw_enable   (draw_enable),
         .draw_done     (screen_done),
         .s_valid       (pixel_valid),

@@ -18,7 +18,8 @@
 // A word also holds the line's group. Where lines of different groups cross, the higher group is seen: groups are numbered in the
 // order of drawing, and the picture is the painter's. A group has one colour: no interpolation along the line.
 //
-// Clocks: at `scan_blank` all memories are cleared at once (2^W_INDEX clocks), then draw_enable rises; a pixel a clock, two
+// Clocks: when a blank begins and `draw_want` says that there is a new picture, all memories are cleared at once (2^W_INDEX clocks),
+// then draw_enable rises; without it the old picture stays; a pixel a clock, two
 // clocks more where two lines in a row meet in one index. Everything must be drawn in the blank, 45 lines of 800 clocks at
 // 640x480. `scan_hit` and `scan_group` are three clocks behind `scan_x` and `scan_y`.
 `default_nettype none
@@ -31,6 +32,7 @@ module line_memories #(
 ) (
     input  wire logic               clk,
     input  wire logic               rst_n,
+    input  wire logic               draw_want,
     output logic                    draw_enable,
     input  wire logic               draw_done,
     input  wire logic               s_valid,
@@ -118,7 +120,7 @@ module line_memories #(
             end
         end
         if (draw_done) draw_enable <= 1'b0;
-        if (scan_blank && !was_blank && !draw_enable) begin
+        if (scan_blank && !was_blank && !draw_enable && draw_want) begin
             clearing    <= 1'b1;
             started     <= 1'b1;
             write       <= '0;

@@ -7,7 +7,7 @@
 //
 // The drawing side: while `draw_enable` is high, send the picture's pixels, then `draw_done` for one clock after the last one
 // was taken; draw_enable falls and rises again when the next picture may be drawn. Ways 0 and 1 take it at any
-// time, in its own clock; way 2 only in the vertical blank, and draw_clk must be clk.
+// time, in its own clock; way 2 only in the vertical blank that begins with `draw_want` high, and draw_clk must be clk.
 //
 // With STEREO ways 0 and 1 hold a picture for each eye; `s_right` says whose pixel it is. Way 2 has one picture for both.
 // The memory is COLUMNS << STRIDE_BITS by V_ACTIVE >> SCALE_BITS pixels; see plane_memory. Nothing is drawn where `background`
@@ -51,6 +51,7 @@ module screen #(
     // The drawing.
     input  wire logic           draw_clk,
     input  wire logic           draw_rst_n,
+    input  wire logic           draw_want,
     output logic                draw_enable,
     input  wire logic           draw_done,
     input  wire logic           s_valid,
@@ -146,6 +147,7 @@ module screen #(
             ) i_memories (
                 .clk        (clk),
                 .rst_n      (rst_n),
+                .draw_want  (draw_want),
                 .draw_enable(draw_enable),
                 .draw_done  (draw_done),
                 .s_valid    (s_valid),
@@ -210,7 +212,7 @@ module screen #(
                 assign cell_drawn = 1'b1;
                 assign set        = {cells[EYES-1], cells[0]};
                 assign rgb        = {2{ink}};
-                assign unused     = ^{s_rgb, s_steep, s_group, palette, s_right, swapped};
+                assign unused     = ^{s_rgb, s_steep, s_group, palette, s_right, swapped, draw_want};
             end else begin : g_colour
                 logic unused;
                 logic [W_COLOUR-1:0] pixel;
@@ -233,7 +235,7 @@ module screen #(
                     );
                     assign set[e] = cells[W_CELL*(e%EYES)+W_COLOUR];
                 end
-                assign unused = ^{s_steep, s_group, palette, s_right, ink, swapped};
+                assign unused = ^{s_steep, s_group, palette, s_right, ink, swapped, draw_want};
             end
         end
     endgenerate

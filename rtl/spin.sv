@@ -30,14 +30,15 @@ module spin #(
     output logic      [31:0] m_data,
     output logic             done
 );
-    // The word that a state sees was addressed in the state before.
-    typedef enum logic [2:0] {IDLE, SINE, COSINE, FIRST, ADD_B, ADD_C, OFFSET} state_t;
+    // The word that a state sees was addressed two states before: the memory's output has a register of its own.
+    typedef enum logic [3:0] {IDLE, SINE, TAKE_SINE, TAKE_COSINE, FIRST_B, FIRST_C, ADD_B, ADD_C, OFFSET} state_t;
     state_t state;
 
     logic [ 3:0] k;
     logic [ 4:0] step;
     logic        last;
     logic [ 8:0] read_address;
+    logic [31:0] read_word;
     logic [31:0] word;
     model_memory #(
         .W_WORD(32),
@@ -49,7 +50,7 @@ module spin #(
         .write_address(write_address),
         .write_word   (write_word),
         .read_address (read_address),
-        .read_word    (word)
+        .read_word    (read_word)
     );
 
     // The sine of quadrant q and step i: table[i], or table[256 - i] in quadrants 1 and 3, which for i = 0 is one; negative in 2 and
@@ -62,18 +63,18 @@ module spin #(
 
     always_comb begin
         case (state)
-            ADD_B: read_address = {2'b10, right, k, 2'd2};
-            ADD_C: read_address = {2'b10, right, k, last ? 2'd0 : 2'd1};
-            COSINE, FIRST, OFFSET: read_address = {2'b10, right, k, 2'd1};
+            FIRST_B: read_address = {2'b10, right, k, 2'd1};
+            FIRST_C, ADD_C: read_address = {2'b10, right, k, 2'd2};
+            ADD_B: read_address = {2'b10, right, k, last ? 2'd0 : 2'd1};
             default: read_address = {1'b0, at[8] ? -at[7:0] : at[7:0]};
         endcase
     end
 
-    logic        was_one;  // the sine that is being read
-    logic        was_minus;
+    logic [ 1:0] was_one;  // the sine that is being read
+    logic [ 1:0] was_minus;
     logic [30:0] cosine, sine, size;
     logic        cosine_minus, sine_minus;
-    assign size = was_one ? 31'h4000_0000 : word[30:0];
+    assign size = was_one[1] ? 31'h4000_0000 : word[30:0];
 
     logic signed [33:0] sum, added, total;
     logic               present, minus, half;
@@ -88,24 +89,27 @@ module spin #(
 
     always_ff @(posedge clk) begin
         done      <= 1'b0;
-        was_one   <= is_one;
-        was_minus <= at[9];
+        word      <= read_word;
+        was_one   <= {was_one[0], is_one};
+        was_minus <= {was_minus[0], at[9]};
         case (state)
             IDLE: begin
                 k <= '0;
                 if (start) state <= SINE;
             end
-            SINE: begin
+            SINE: state <= TAKE_SINE;
+            TAKE_SINE: begin
                 sine       <= size;
-                sine_minus <= was_minus;
-                state      <= COSINE;
+                sine_minus <= was_minus[1];
+                state      <= TAKE_COSINE;
             end
-            COSINE: begin
+            TAKE_COSINE: begin
                 cosine       <= size;
-                cosine_minus <= was_minus;
-                state        <= FIRST;
+                cosine_minus <= was_minus[1];
+                state        <= FIRST_B;
             end
-            FIRST: begin
+            FIRST_B: state <= FIRST_C;
+            FIRST_C: begin
                 sum   <= '0;
                 step  <= '0;
                 state <= ADD_B;
@@ -127,7 +131,7 @@ module spin #(
             OFFSET: begin
                 k     <= k + 1'b1;
                 done  <= k == 4'd15;
-                state <= k == 4'd15 ? IDLE : FIRST;
+                state <= k == 4'd15 ? IDLE : FIRST_B;
             end
             default: state <= IDLE;
         endcase

@@ -221,6 +221,8 @@ fn line_memories_are_the_painters_picture_without_a_framebuffer() {
     }
     let first = seen.iter().position(|s| s.pixels == wanted[0]).expect("the first picture");
     assert_eq!(in_order(&seen[first..first + 4], &wanted, 640), (4, 0));
+    // Without a new picture the last one stays.
+    assert!(screen.frames(2).iter().all(|s| s.pixels == wanted[3]));
 }
 
 #[test]

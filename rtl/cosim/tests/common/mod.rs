@@ -49,6 +49,7 @@ pub struct Screen {
     monitor: Monitor,
     clk: Port,
     draw_clk: Port,
+    want: Port,
     enable: Port,
     done: Port,
     valid: Port,
@@ -86,6 +87,7 @@ impl Screen {
             random: Random::new(seed),
             clk: port("clk"),
             draw_clk: port("draw_clk"),
+            want: port("draw_want"),
             enable: port("draw_enable"),
             done: port("draw_done"),
             valid: port("s_valid"),
@@ -164,6 +166,7 @@ impl Screen {
     fn offer(&mut self) -> bool {
         let model = &mut self.model;
         model.set(self.done, 0);
+        model.set(self.want, u8::from(!self.queue.is_empty()));
         let Some(picture) = self.queue.front() else {
             model.set(self.valid, 0);
             model.eval();
