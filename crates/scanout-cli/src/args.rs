@@ -2,6 +2,7 @@
 //!
 //! Names follow f3d where f3d has the option; its longer spellings are accepted as aliases.
 
+pub mod ar;
 mod choices;
 mod window;
 
@@ -57,6 +58,12 @@ pub enum Command {
     Info(InfoArgs),
     /// Write what firmware links and what hardware reads
     Bake(BakeArgs),
+    /// Write a marker to print
+    Marker(ar::MarkerArgs),
+    /// Put a model on a marker in a film or a webcam's picture, and tell its pose
+    Ar(ar::ArArgs),
+    /// Find a camera's intrinsics from pictures of a chessboard
+    Calibrate(ar::CalibrateArgs),
     /// Draw the 16 test lines of every direction, and list their pixels
     Lines(LinesArgs),
     /// Measure how fast this machine draws, and check that it draws the same pixels as every other

@@ -5,6 +5,7 @@
 //! [`World`], so that models in micrometres and in kilometres use the same bits.
 
 mod material;
+pub mod placed;
 pub mod vector;
 pub mod view;
 
