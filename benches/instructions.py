@@ -34,7 +34,7 @@ SCALAR_TARGET = {"5000:flat": 2.2, "5000:gouraud": 2.6, "5000:textured": 3.0}
 TINYGL = {"long": 1123, "short": 203}
 LINE_TARGET = {"long": 900, "short": 180}
 LINE_KINDS = {
-    "fill": "one value (`fill_cells`)",
+    "fill": "one value (`Field::line`)",
     "flat": "one value (`walk_cells`)",
     "colour": "colour interpolated",
     "depth": "one value, depth tested",

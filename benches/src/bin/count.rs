@@ -5,7 +5,7 @@
 //!
 //! | kind | what is drawn |
 //! |---|---|
-//! | `fill` | RGB565 words of one value, `fill_cells` |
+//! | `fill` | RGB565 words of one value, `Field::line` |
 //! | `flat` | the same through `walk_cells` |
 //! | `colour` | colour interpolated, to RGB565 |
 //! | `depth` | one value, depth interpolated and tested |
@@ -22,7 +22,7 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use scanout::output::{PixelFormat, Rgb565};
-use scanout::raster::line::{fill_cells, walk, walk_cells};
+use scanout::raster::line::{Field, LineEnd, walk, walk_cells};
 use scanout_benches::lines::{self, CLIP, HEIGHT, Line, WIDTH};
 use scanout_benches::scenes::{Case, Data};
 
@@ -131,8 +131,8 @@ fn draw_peer(name: &str, frames: u32) -> Result<(), String> {
 fn draw_lines(name: &str, frames: u32) -> Result<(), String> {
     let (set, kind) = name.split_once(':').unwrap_or((name, "fill"));
     let lines = line_set(set)?;
-    let draw = match kind {
-        "fill" => fill,
+    let draw: fn(&Line, &mut [u16], &mut [u16]) = match kind {
+        "fill" => |_, _, _| (),
         "flat" => flat,
         "colour" => colour,
         "depth" => depth,
@@ -145,8 +145,10 @@ fn draw_lines(name: &str, frames: u32) -> Result<(), String> {
     let pixels = WIDTH as usize * HEIGHT as usize;
     let (mut colours, mut depths) = (vec![0; pixels], vec![u16::MAX; pixels]);
     for _ in 0..frames {
-        for line in &lines {
-            draw(black_box(line), &mut colours, &mut depths);
+        if kind == "fill" {
+            fill(&lines, &mut colours);
+        } else {
+            lines.iter().for_each(|line| draw(black_box(line), &mut colours, &mut depths));
         }
         black_box((&mut colours, &mut depths));
     }
@@ -155,9 +157,17 @@ fn draw_lines(name: &str, frames: u32) -> Result<(), String> {
 
 const STRIDE: usize = WIDTH as usize;
 
+fn fill(lines: &[Line], colours: &mut [u16]) {
+    let Some(mut field) = Field::new(colours, STRIDE, CLIP) else { return };
+    for line in lines {
+        fill_one(black_box(line), &mut field);
+    }
+}
+
 #[inline(never)]
-fn fill([a, b]: &Line, colours: &mut [u16], _: &mut [u16]) {
-    fill_cells(colours, STRIDE, CLIP, a, b, Rgb565::encode(a.rgb));
+fn fill_one([a, b]: &Line, field: &mut Field<u16>) {
+    let place = |end: &LineEnd| [end.x as u32, end.y as u32];
+    field.line(place(a), place(b), Rgb565::encode(a.rgb));
 }
 
 #[inline(never)]

@@ -1,6 +1,6 @@
 //! Lines of one value: edges of a wireframe, eight at a time to the point where their pixels begin.
 //!
-//! The pixels are those of [`Field::fill`](crate::raster::line::Field::fill), by the same equation.
+//! The pixels are those of [`Field::line`](crate::raster::line::Field::line), by the same equation.
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;

@@ -13,7 +13,7 @@
 //! | `project` | positions to screen vertices, 4 at a time | `ClipMatrix::apply`, `Viewport::project` |
 //! | `facing` | which of 8 triangles can be seen | `ObjectPass::triangles` |
 //! | `planes` | edges and planes of 8 triangles | `Triangle::new`, `Triangle::plane`, `TextureSetup::new` |
-//! | `edges` | edges of one colour, 8 at a time | `Field::fill` |
+//! | `edges` | edges of one colour, 8 at a time | `Field::line` |
 //! | `strips` | their pixels, 16 side by side | `Target::fill_runs` |
 //!
 //! The token [`Avx2`] is proof that the processor can; elsewhere, and without the feature `simd`, there is none.

@@ -48,8 +48,7 @@ fn write_eight<S: Shader>(
 /// Draws edges the quick way; `other` draws those that are long or not inside.
 #[inline(never)]
 fn lines<T: Copy>(
-    cells: &mut [T],
-    field: Field,
+    mut field: Field<T>,
     top: i32,
     edges: &[[u16; 2]],
     vertices: &[Vertex],
@@ -59,8 +58,8 @@ fn lines<T: Copy>(
     for edge in edges {
         let [Some(a), Some(b)] = edge.map(|i| vertices.get(i as usize)) else { continue };
         let place = |v: &Vertex| [(v.x >> 4) as u32, ((v.y >> 4) - top) as u32];
-        if !field.fill(cells, place(a), place(b), value) {
-            other([a, b], cells);
+        if !field.line(place(a), place(b), value) {
+            other([a, b], field.cells());
         }
     }
 }
@@ -313,8 +312,8 @@ impl<F: PixelFormat> Target<'_, F> {
         }
         let (false, Some(cells)) = (self.dither, F::pixels(self.colour)) else { return false };
         let value = F::encode(rgb);
-        let Some(field) = Field::new(width, clip) else { return false };
-        lines(cells, field, rows.start, edges, vertices, value, |[a, b], cells| {
+        let Some(field) = Field::new(cells, width, clip) else { return false };
+        lines(field, rows.start, edges, vertices, value, |[a, b], cells| {
             let end = |v: &Vertex| LineEnd { x: v.x >> 4, y: v.y >> 4, ..LineEnd::default() };
             let (a, b) = (end(a), end(b));
             if a.y.min(b.y) < rows.end && a.y.max(b.y) >= rows.start {

@@ -49,8 +49,8 @@ mod fill;
 mod place;
 pub(super) mod ramp;
 
-pub use fill::fill_cells;
-pub(crate) use fill::{Field, HALF, LONGEST};
+pub use fill::{Field, fill_cells};
+pub(crate) use fill::{HALF, LONGEST};
 
 use place::{Cell, Pixel, Place};
 use ramp::{LongRamp, Ramp, SHORT, ShortRamp};

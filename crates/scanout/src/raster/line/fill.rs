@@ -26,34 +26,102 @@ use core::hint::black_box;
 
 use super::{ClipRect, LineEnd, walk_cells};
 
-/// The cells of one line.
-struct Cells<'a, T> {
-    cells: &'a mut [T],
-    value: T,
+/// Rows of cells that lines of one value are drawn in.
+///
+/// ```
+/// use scanout::raster::line::{ClipRect, Field};
+///
+/// let mut cells = [b'.'; 8 * 4];
+/// let clip = ClipRect { x0: 0, y0: 0, x1: 8, y1: 4 };
+/// let mut field = Field::new(&mut cells, 8, clip).unwrap();
+/// assert!(field.line([7, 3], [0, 0], b'#'));
+/// assert!(!field.line([0, 0], [8, 0], b'#'), "outside");
+/// assert_eq!(&cells, b"##........##........##........##");
+/// ```
+#[derive(Debug)]
+pub struct Field<'m, T> {
+    cells: &'m mut [T],
+    stride: u32,
+    width: u32,
+    height: u32,
 }
 
-impl<T: Copy> Cells<'_, T> {
-    /// Stores the value.
+impl<'m, T: Copy> Field<'m, T> {
+    /// The cells of a rectangle, its rows `stride` apart: `cells[(y - clip.y0) * stride + (x - clip.x0)]`. `None` where they do not
+    /// hold it all, where it is empty, wider or higher than 16,384 or `stride` above 65,536.
+    #[inline]
+    pub fn new(cells: &'m mut [T], stride: usize, clip: ClipRect) -> Option<Self> {
+        let (width, height) = (clip.x1.wrapping_sub(clip.x0), clip.y1.wrapping_sub(clip.y0));
+        let fits = clip.x0 < clip.x1
+            && clip.y0 < clip.y1
+            && stride.wrapping_sub(1) < 1 << 16
+            && (width | height) as u32 <= 1 << 14;
+        if !fits || (height as usize - 1) * stride + width as usize > cells.len() {
+            return None;
+        }
+        Some(Self { cells, stride: stride as u32, width: width as u32, height: height as u32 })
+    }
+
+    /// All of the cells.
+    pub(crate) fn cells(&mut self) -> &mut [T] {
+        self.cells
+    }
+
+    /// Draws a line, its ends as column and row; false, and nothing is drawn, where an end is outside or it has more than
+    /// 1024 steps.
     #[inline(always)]
-    fn put(&mut self, at: usize) {
+    pub fn line(&mut self, a: [u32; 2], b: [u32; 2], value: T) -> bool {
+        // From the top down.
+        let (a, b) = if b[1] < a[1] { (b, a) } else { (a, b) };
+        if a[0].max(b[0]) >= self.width || b[1] >= self.height {
+            return false;
+        }
+        let dy = b[1] - a[1];
+        let right = b[0].wrapping_sub(a[0]) as i32;
+        let dx = right.unsigned_abs();
+        if dx.max(dy) > LONGEST {
+            return false;
+        }
+        let index = a[1] * self.stride + a[0];
+        if dy > dx {
+            let slope = u32::MAX / dy * dx;
+            // To the left the index is the whole part of a number that shrinks from just below the next whole one.
+            let back = i64::from(right >> 31) as u64;
+            let at = u64::from(index) << 32 | u64::from(HALF ^ back as u32);
+            let step = (u64::from(self.stride) << 32)
+                .wrapping_add((u64::from(slope) ^ back).wrapping_sub(back));
+            self.steep(at, step, dy + 1, value);
+            return true;
+        }
+        let inverse = u32::MAX / dx.max(1);
+        let side = if right < 0 { usize::MAX } else { 1 };
+        let fraction = if right < 0 { HALF - inverse / 2 } else { HALF };
+        let down = side.wrapping_add(self.stride as usize);
+        self.flat(index as usize, [side, down], [fraction, inverse * dy], dx + 1, value);
+        true
+    }
+
+    /// Stores a value.
+    #[inline(always)]
+    fn put(&mut self, at: usize, value: T) {
         debug_assert!(at < self.cells.len());
         #[cfg(feature = "simd")]
-        // SAFETY: `Field::fill` draws only lines whose box ends inside the buffer, and a line stays in its box: its ends are inside, and
-        // by the proof above every step sideways, of `0..=n`, is within `0..=m`.
+        // SAFETY: `line` draws only lines with both ends inside the rectangle, which `new` has found inside the slice, and a line stays in
+        // the box of its ends: by the proof above every step sideways, of `0..=n`, is within `0..=m`.
         unsafe {
-            *self.cells.get_unchecked_mut(at) = self.value;
+            *self.cells.get_unchecked_mut(at) = value;
         }
         #[cfg(not(feature = "simd"))]
         if let Some(cell) = self.cells.get_mut(at) {
-            *cell = self.value;
+            *cell = value;
         }
     }
 
     /// A steep line: the index and its fraction are one number.
     #[inline(always)]
-    fn steep(&mut self, mut at: u64, step: u64, count: u32) {
+    fn steep(&mut self, mut at: u64, step: u64, count: u32, value: T) {
         let mut next = || {
-            self.put((at >> 32) as usize);
+            self.put((at >> 32) as usize, value);
             at = at.wrapping_add(step);
         };
         for _ in 0..count / 4 {
@@ -62,41 +130,37 @@ impl<T: Copy> Cells<'_, T> {
             next();
             next();
         }
-        if count & 2 != 0 {
-            next();
-            next();
-        }
-        if count & 1 != 0 {
+        for _ in 0..count % 4 {
             next();
         }
     }
 
-    /// A line that isn't steep: the carries of a fraction are steps down.
+    /// A line that isn't steep: from cell to cell is `side`, with a step down `down`, by the carries of a fraction.
     #[inline(always)]
     fn flat(
         &mut self,
         mut at: usize,
-        side: usize,
-        down: usize,
-        mut fraction: u32,
-        mut slope: u32,
+        [side, down]: [usize; 2],
+        [mut fraction, mut slope]: [u32; 2],
         count: u32,
+        value: T,
     ) {
-        for _ in 0..count / 4 {
-            // Without this the compiler would add multiples of the slope to one fraction, and compare to find the carries.
-            slope = black_box(slope);
-            for _ in 0..4 {
-                self.put(at);
-                let (sum, carry) = fraction.overflowing_add(slope);
-                fraction = sum;
-                at = at.wrapping_add(if carry { down } else { side });
-            }
-        }
-        for _ in 0..count % 4 {
-            self.put(at);
+        let mut next = |slope: u32| {
+            self.put(at, value);
             let (sum, carry) = fraction.overflowing_add(slope);
             fraction = sum;
             at = at.wrapping_add(if carry { down } else { side });
+        };
+        for _ in 0..count / 4 {
+            // Without this the compiler would add multiples of the slope to one fraction, and compare to find the carries.
+            slope = black_box(slope);
+            next(slope);
+            next(slope);
+            next(slope);
+            next(slope);
+        }
+        for _ in 0..count % 4 {
+            next(slope);
         }
     }
 }
@@ -105,7 +169,7 @@ impl<T: Copy> Cells<'_, T> {
 /// [`walk_cells`]: `cells[(y - clip.y0) * stride + (x - clip.x0)]`. Cells beyond the buffer's end
 /// are left out. Depth and colour of the ends aren't used.
 ///
-/// Cost: one 32-bit division a line. On x86-64, two bytes a cell: COST.
+/// Cost: one 32-bit division a line; for many lines use [`Field`].
 #[inline]
 pub fn fill_cells<T: Copy>(
     cells: &mut [T],
@@ -116,7 +180,8 @@ pub fn fill_cells<T: Copy>(
     value: T,
 ) {
     let place = |e: &LineEnd| [e.x.wrapping_sub(clip.x0) as u32, e.y.wrapping_sub(clip.y0) as u32];
-    let drawn = Field::new(stride, clip).is_some_and(|f| f.fill(cells, place(a), place(b), value));
+    let drawn =
+        Field::new(cells, stride, clip).is_some_and(|mut f| f.line(place(a), place(b), value));
     if !drawn {
         fill_any(cells, stride, clip, a, b, value);
     }
@@ -138,64 +203,6 @@ fn fill_any<T: Copy>(
             *cell = value;
         }
     });
-}
-
-/// A buffer small enough for the fast path: every index of a line fits 31 bits.
-#[derive(Clone, Copy)]
-pub struct Field {
-    stride: u32,
-    width: u32,
-    height: u32,
-}
-
-impl Field {
-    /// The buffer of [`walk_cells`].
-    #[inline(always)]
-    pub fn new(stride: usize, clip: ClipRect) -> Option<Self> {
-        let (width, height) = (clip.x1.wrapping_sub(clip.x0), clip.y1.wrapping_sub(clip.y0));
-        let fits = clip.x0 < clip.x1
-            && clip.y0 < clip.y1
-            && stride.wrapping_sub(1) < 1 << 16
-            && (width | height) as u32 <= 1 << 14;
-        fits.then_some(Self { stride: stride as u32, width: width as u32, height: height as u32 })
-    }
-
-    /// [`fill_cells`] for ends as column and row; false, and nothing is drawn, where an end is outside, the line is long or the
-    /// buffer short.
-    #[inline(always)]
-    pub fn fill<T: Copy>(self, cells: &mut [T], a: [u32; 2], b: [u32; 2], value: T) -> bool {
-        let Self { stride, width, height } = self;
-        if a[0] >= width || b[0] >= width || a[1] >= height || b[1] >= height {
-            return false;
-        }
-        // From the top down.
-        let (a, b) = if b[1] < a[1] { (b, a) } else { (a, b) };
-        let dy = b[1] - a[1];
-        let right = b[0].wrapping_sub(a[0]) as i32;
-        let dx = right.unsigned_abs();
-        let last = b[1] * stride + a[0].max(b[0]);
-        if dx.max(dy) > LONGEST || last as usize >= cells.len() {
-            return false;
-        }
-        let index = a[1] * stride + a[0];
-        let mut cells = Cells { cells, value };
-        if dy > dx {
-            let slope = u32::MAX / dy * dx;
-            // To the left the index is the whole part of a number that shrinks from just below the next whole one.
-            let back = i64::from(right >> 31) as u64;
-            let at = u64::from(index) << 32 | u64::from(HALF ^ back as u32);
-            let step = (u64::from(stride) << 32)
-                .wrapping_add((u64::from(slope) ^ back).wrapping_sub(back));
-            cells.steep(at, step, dy + 1);
-            return true;
-        }
-        let inverse = u32::MAX / dx.max(1);
-        let side = if right < 0 { usize::MAX } else { 1 };
-        let fraction = if right < 0 { HALF - inverse / 2 } else { HALF };
-        let down = side.wrapping_add(stride as usize);
-        cells.flat(index as usize, side, down, fraction, inverse * dy, dx + 1);
-        true
-    }
 }
 
 /// The largest `n` of this path.
