@@ -23,7 +23,7 @@ fn main() {
         let mut model =
             load(file("obj"), &LoadOptions::default()).expect("the repository's own model");
         let image = load_image(file("ppm"), &Limits::default());
-        model.images.push(image.expect("the repository's own picture").0);
+        model.images = vec![image.expect("the repository's own picture").0];
         model.parts[0].material.texture = Some(0);
         let baked = bake::to_binary(&model).expect("it is small");
         fs::write(out.join(name).with_extension("mesh"), baked).expect("cargo's own folder");

@@ -17,7 +17,7 @@ fn main() {
 
     let out = PathBuf::from(env::var("OUT_DIR").unwrap_or_default());
     let models = Path::new(&here).join("../../models/system-b");
-    for name in ["a", "b", "c"] {
+    for name in ["a", "c"] {
         let (obj, ppm) =
             (models.join(name).with_extension("obj"), models.join(name).with_extension("ppm"));
         println!("cargo::rerun-if-changed={}", obj.display());
@@ -25,7 +25,7 @@ fn main() {
         let mut model = load(&obj, &LoadOptions::default()).expect("the repository's own model");
         let (image, _) =
             load_image(&ppm, &Limits::default()).expect("the repository's own picture");
-        model.images.push(image);
+        model.images = vec![image];
         model.parts[0].material.texture = Some(0);
         let baked = bake::to_binary(&model).expect("it is small");
         fs::write(out.join(name).with_extension("mesh"), baked).expect("cargo's own folder");

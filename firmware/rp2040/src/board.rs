@@ -1,19 +1,20 @@
-//! Clocks, pins, the display, frames.
+//! Clocks, pins, the display, frames: for the RP2040 and the RP2350, whose `chip` modules name what differs.
 
 use core::cell::UnsafeCell;
 use core::fmt::Write as _;
 
+use crate::chip::{hal, timer};
 use embedded_hal_bus::spi::ExclusiveDevice;
+use hal::clocks::init_clocks_and_plls;
+use hal::fugit::RateExtU32;
+use hal::gpio::{FunctionSpi, FunctionUart, Pins};
+use hal::spi::Spi;
+use hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
+use hal::{Clock, Sio, Watchdog, pac};
 use mipidsi::Builder;
 use mipidsi::models::ST7789;
 use mipidsi::options::{Orientation, Rotation};
 use player::scene::{self, HEIGHT, Model, Placement, WIDTH};
-use rp2040_hal::clocks::init_clocks_and_plls;
-use rp2040_hal::fugit::RateExtU32;
-use rp2040_hal::gpio::{FunctionSpi, FunctionUart, Pins};
-use rp2040_hal::spi::Spi;
-use rp2040_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
-use rp2040_hal::{Clock, Sio, Timer, Watchdog, pac};
 use scanout::frame::{Frame, ObjectState, Primitive, Settings, Store};
 use scanout::math::Q16;
 use scanout::transform::Vertex;
@@ -22,11 +23,7 @@ use scanout_display::flush::show;
 use scanout_display::spi::SpiLink;
 use scanout_display::window::Area;
 
-#[unsafe(link_section = ".boot2")]
-#[used]
-static BOOT2: [u8; 256] = rp2040_boot2::BOOT_LOADER_GENERIC_03H;
-
-/// The Pico's crystal, Hz.
+/// The crystal of a Pico and a Pico 2, Hz.
 const CRYSTAL: u32 = 12_000_000;
 /// Frames of a model before the other one comes.
 const FRAMES: u32 = if cfg!(feature = "short") { 2 } else { 90 };
@@ -56,7 +53,7 @@ unsafe impl Sync for Once {}
 static MEMORY: Once =
     Once(UnsafeCell::new(unsafe { core::mem::MaybeUninit::zeroed().assume_init() }));
 
-#[rp2040_hal::entry]
+#[hal::entry]
 fn main() -> ! {
     // SAFETY: taken here, the first time and the only one.
     let (mut chip, memory) = unsafe { (pac::Peripherals::steal(), &mut *MEMORY.0.get()) };
@@ -72,7 +69,7 @@ fn main() -> ! {
     );
     // Without its crystal there is no UART to say so.
     let Ok(clocks) = clocks else { sleep() };
-    let mut timer = Timer::new(chip.TIMER, &mut chip.RESETS, &clocks);
+    let mut timer = timer!(chip, clocks);
     let sio = Sio::new(chip.SIO);
     let pins = Pins::new(chip.IO_BANK0, chip.PADS_BANK0, sio.gpio_bank0, &mut chip.RESETS);
 
@@ -142,7 +139,7 @@ fn baked(bytes: &'static [u8]) -> Result<Model<'static>, BakeError> {
 
 fn sleep() -> ! {
     loop {
-        rp2040_hal::arch::wfi();
+        hal::arch::wfi();
     }
 }
 

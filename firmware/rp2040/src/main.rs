@@ -15,6 +15,8 @@
 
 #[cfg(target_os = "none")]
 mod board;
+#[cfg(target_os = "none")]
+mod chip;
 
 #[cfg(not(target_os = "none"))]
 fn main() {
