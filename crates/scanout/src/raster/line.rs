@@ -50,6 +50,7 @@ mod place;
 pub(super) mod ramp;
 
 pub use fill::{Field, fill_cells};
+#[cfg(all(feature = "simd", target_arch = "x86_64"))]
 pub(crate) use fill::{HALF, LONGEST};
 
 use place::{Cell, Pixel, Place};
