@@ -240,6 +240,25 @@ mod tests {
         }
     }
 
+    /// Left, right, and what grey, half colour and Dubois make of them: for whoever builds the mixer anew.
+    const VECTORS: [(Pixel, Pixel, [Pixel; 3]); 4] = [
+        ([200, 100, 50], [30, 60, 90], [[124, 54, 54], [124, 60, 90], [143, 41, 96]]),
+        ([1, 2, 3], [4, 5, 6], [[1, 4, 4], [1, 5, 6], [1, 4, 6]]),
+        ([255, 0, 128], [0, 255, 127], [[90, 164, 164], [90, 255, 127], [116, 172, 122]]),
+        ([17, 99, 201], [254, 3, 77], [[86, 86, 86], [86, 3, 77], [81, 89, 72]]),
+    ];
+
+    type Pixel = [u8; 3];
+
+    #[test]
+    fn vectors() {
+        for (left, right, expected) in VECTORS {
+            let got = [AnaglyphGrey, AnaglyphHalfColour, AnaglyphDubois]
+                .map(|how| mix(&how.coefficients().unwrap(), left, right));
+            assert_eq!(got, expected, "{left:?} {right:?}");
+        }
+    }
+
     #[test]
     fn extremes_are_clamped_and_never_wrap() {
         assert_eq!(mix(&DUBOIS, [255; 3], [0; 3]), [255, 0, 0]);
