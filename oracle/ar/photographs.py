@@ -12,14 +12,14 @@ FOLDERS = ["/usr/share/backgrounds", "/usr/share/backgrounds/mate/nature", "/usr
 LARGEST = 2400
 
 
-def files():
-    """The photographs' paths, each picture once."""
+def files(all_of_them=False):
+    """The photographs' paths, each picture once: scikit-image's, or all that are installed."""
     import skimage.data
 
     folder = pathlib.Path(skimage.data.__file__).parent
     paths = [folder / name for name in SKIMAGE if (folder / name).exists()]
     seen = set()
-    for directory in map(pathlib.Path, FOLDERS):
+    for directory in map(pathlib.Path, FOLDERS if all_of_them else []):
         pattern = "*/contents/images/*.jpg" if directory.name == "wallpapers" else "*.jpg"
         for path in sorted(directory.glob(pattern)):
             real = path.resolve()

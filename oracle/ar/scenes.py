@@ -78,8 +78,8 @@ def paint(canvas, camera, marker, black=20.0, white=235.0):
     ys = (numpy.arange((y1 - y0) * FINE) + 0.5) / FINE + y0
     grid = numpy.stack(numpy.meshgrid(xs, ys), -1)
     if camera.distortion.any():
-        flat = cv2.undistortPointsIter(grid.reshape(-1, 1, 2), camera.matrix(), camera.distortion, None, None,
-                                       (cv2.TERM_CRITERIA_COUNT, 20, 1e-9)).reshape(grid.shape)
+        flat = cv2.undistortPoints(grid.reshape(-1, 1, 2), camera.matrix(), camera.distortion, R=None, P=None,
+                                   criteria=(cv2.TERM_CRITERIA_COUNT, 20, 1e-9)).reshape(grid.shape)
     else:
         flat = (grid - camera.centre) / camera.focal
     rays = numpy.concatenate([flat, numpy.ones(flat.shape[:2] + (1,))], -1)
