@@ -95,6 +95,8 @@ module line_clip #(
 
     logic signed [V-1:0] rest_signed;
     assign rest_signed = $signed(rest);
+    logic signed [V-1:0] advance;
+    assign advance = $signed({1'b0, q}) + V'(signed'({1'b0, rest_signed >= n_signed}));
 
     always_ff @(posedge clk) begin
         start <= 1'b0;
@@ -171,9 +173,6 @@ module line_clip #(
             start <= 1'b0;
         end
     end
-
-    logic signed [V-1:0] advance;
-    assign advance = $signed({1'b0, q}) + V'(signed'({1'b0, rest_signed >= n_signed}));
 
     assign m_valid = state == FULL;
     assign m_x     = W_SCREEN'(steep ? minor : major);
