@@ -15,7 +15,9 @@ fn main() {
     println!("cargo::rerun-if-changed=arm/memory.x");
     println!("cargo::rerun-if-changed=riscv/memory.x");
     if !arm {
+        // riscv-rt includes neither by itself; the chip crate makes the second.
         println!("cargo::rustc-link-arg-bins=-Tmemory.x");
+        println!("cargo::rustc-link-arg-bins=-Tdevice.x");
     }
     println!("cargo::rustc-link-arg-bins=--nmagic");
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
