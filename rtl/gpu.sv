@@ -34,6 +34,7 @@ module gpu #(
     parameter int STEREO          = 0,
     parameter int OVERLAY         = 0,
     parameter int MULTIPLIERS     = 3,
+    parameter int CLIP            = 1,
     parameter int VERTICES        = 1024,
     parameter int EDGES           = 2048,
     parameter int BUS             = 1,
@@ -346,6 +347,7 @@ module gpu #(
     localparam int TAGGED = WAY == 2 ? 1 : 0;
     localparam logic [W_SCREEN:0] EYE_HEIGHT = (W_SCREEN + 1)'(HEIGHT);
     logic                wireframe_start;
+    logic                edge_lost;
     logic                screen_done;
     logic [  W_VERTEX:0] vertex_count;
     logic [    W_EDGE:0] edge_count;
@@ -373,6 +375,7 @@ module gpu #(
         .EDGES      (EDGES),
         .MULTIPLIERS(MULTIPLIERS),
         .TAGGED     (TAGGED),
+        .CLIP       (CLIP),
         .VERTEX_HEX (VERTEX_HEX),
         .EDGE_HEX   (EDGE_HEX)
     ) i_wireframe (
@@ -394,6 +397,7 @@ module gpu #(
         .start         (wireframe_start),
         .busy          (busy),
         .done          (wireframe_done),
+        .lost          (edge_lost),
         .m_valid       (pixel_valid),
         .m_ready       (pixel_ready),
         .m_x           (pixel_x),
@@ -477,7 +481,7 @@ module gpu #(
     always_ff @(posedge clk) begin
         late_before <= late_here;
         late        <= rst_n && late_here != late_before;
-        incomplete  <= dropped != '0;
+        incomplete  <= dropped != '0 || edge_lost;
     end
 
     logic unused_gpu;

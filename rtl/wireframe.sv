@@ -11,6 +11,8 @@
 //   | m_               | pixels on the picture: column, row; whether the line is steep, and its group (TAGGED 1)        |
 //
 // `start` begins a picture, `done` is one clock long after its last pixel was taken. Model and counts must not change in between.
+// CLIP 0 leaves the clip stages away, for a model that is always in view: an edge with an end off the screen is not drawn, and `lost`
+// is high for a clock.
 // With TAGGED an edge begins when the last one's pixels are out, because the tags belong to whole lines.
 //
 // Clocks: a vertex costs what the slower of transform and project does (about 40 with 3 multipliers), an edge 7 or its pixels.
@@ -22,6 +24,7 @@ module wireframe #(
     parameter int EDGES       = 2048,
     parameter int MULTIPLIERS = 3,
     parameter int TAGGED      = 0,
+    parameter int CLIP        = 1,
     parameter     VERTEX_HEX  = "",
     parameter     EDGE_HEX    = "",
     parameter int W_VERTEX    = $clog2(VERTICES),
@@ -45,6 +48,7 @@ module wireframe #(
     input  wire logic                start,
     output logic                     busy,
     output logic                     done,
+    output logic                     lost,
     output logic                     m_valid,
     input  wire logic                m_ready,
     output logic      [W_SCREEN-1:0] m_x,
@@ -53,7 +57,7 @@ module wireframe #(
     output logic      [         1:0] m_group
 );
     // A column or row of the guard band.
-    localparam int W = W_SCREEN + 13;
+    localparam int W = CLIP != 0 ? W_SCREEN + 13 : W_SCREEN + 2;
     localparam int W_PROJECTED = 2 * W + 3;
     // What goes through the transform: a vertex of the first pass, or an end of an edge that must be clipped.
     localparam int W_TAG = W_VERTEX;
@@ -113,10 +117,15 @@ module wireframe #(
         .clk          (clk),
         .write        (project_valid && !clipping),
         .write_address(project_tag),
-        .write_word   ({project_flags, project_y[4+:W], project_x[4+:W]}),
+        .write_word   ({vertex_flags, project_y[4+:W], project_x[4+:W]}),
         .read_address (projected_address),
         .read_word    (projected)
     );
+
+    // Without the clip stages a vertex must be on the screen.
+    logic [         2:0]    vertex_flags;
+    assign vertex_flags = CLIP != 0 ? project_flags : 3'(
+        project_flags != '0 || project_x[31:4] >= 28'(width) || project_y[31:4] >= 28'(height));
 
     // --------------------------------------------------------------------------------------------------- transform and project
     logic               transform_valid;
@@ -154,17 +163,26 @@ module wireframe #(
     assign transform_valid = state == VERTEX_SEND || state == CLIP_SEND;
     assign clip_ready      = clipping ? clip_stage_ready : scale_ready;
 
-    clip i_clip (
-        .clk    (clk),
-        .rst_n  (rst_n),
-        .s_valid(clip_valid && clipping),
-        .s_ready(clip_stage_ready),
-        .s_data (clip_data),
-        .m_valid(clipped_valid),
-        .m_ready(scale_ready),
-        .m_data (clipped_data),
-        .idle   (clip_stage_idle)
-    );
+    generate
+        if (CLIP != 0) begin : g_clip
+            clip i_clip (
+                .clk    (clk),
+                .rst_n  (rst_n),
+                .s_valid(clip_valid && clipping),
+                .s_ready(clip_stage_ready),
+                .s_data (clip_data),
+                .m_valid(clipped_valid),
+                .m_ready(scale_ready),
+                .m_data (clipped_data),
+                .idle   (clip_stage_idle)
+            );
+        end else begin : g_no_clip
+            assign clip_stage_ready = 1'b1;
+            assign clip_stage_idle  = 1'b1;
+            assign clipped_valid    = 1'b0;
+            assign clipped_data     = '0;
+        end
+    endgenerate
 
     logic [31:0] unused_z;
     logic [31:0] unused_inverse;
@@ -204,26 +222,68 @@ module wireframe #(
     logic                unused_last;
     logic [         1:0] group;
 
-    line_clipped #(
-        .W_SCREEN(W_SCREEN)
-    ) i_line (
-        .clk    (clk),
-        .rst_n  (rst_n),
-        .width  (width),
-        .height (height),
-        .s_valid(state == LINE && (TAGGED == 0 || !line_busy)),
-        .s_ready(line_ready),
-        .s_a_x  (a_x),
-        .s_a_y  (a_y),
-        .s_b_x  (b_x),
-        .s_b_y  (b_y),
-        .m_valid(m_valid),
-        .m_ready(m_ready),
-        .m_x    (m_x),
-        .m_y    (m_y),
-        .m_last (unused_last),
-        .busy   (line_busy)
-    );
+    logic line_valid;
+    assign line_valid = state == LINE && (TAGGED == 0 || !line_busy);
+    generate
+        if (CLIP != 0) begin : g_line_clipped
+            line_clipped #(
+                .W_SCREEN(W_SCREEN)
+            ) i_line (
+                .clk    (clk),
+                .rst_n  (rst_n),
+                .width  (width),
+                .height (height),
+                .s_valid(line_valid),
+                .s_ready(line_ready),
+                .s_a_x  (a_x),
+                .s_a_y  (a_y),
+                .s_b_x  (b_x),
+                .s_b_y  (b_y),
+                .m_valid(m_valid),
+                .m_ready(m_ready),
+                .m_x    (m_x),
+                .m_y    (m_y),
+                .m_last (unused_last),
+                .busy   (line_busy)
+            );
+        end else begin : g_line
+            // Both ends are on the screen; two more bits keep line's sums from overflowing.
+            logic [W-1:0] x, y;
+            logic [      23:0] unused_rgb;
+            logic [       2:0] lines;  // in here: at most four in the set-up and one that is walked
+            logic              unused_top;
+            line #(
+                .W(W)
+            ) i_line (
+                .clk    (clk),
+                .rst_n  (rst_n),
+                .s_valid(line_valid),
+                .s_ready(line_ready),
+                .s_a_x  (a_x),
+                .s_a_y  (a_y),
+                .s_b_x  (b_x),
+                .s_b_y  (b_y),
+                .s_a_z  (1'b0),
+                .s_b_z  (1'b0),
+                .s_a_rgb(24'd0),
+                .s_b_rgb(24'd0),
+                .m_valid(m_valid),
+                .m_ready(m_ready),
+                .m_x    (x),
+                .m_y    (y),
+                .m_rgb  (unused_rgb),
+                .m_last (unused_last)
+            );
+            assign m_x        = x[W_SCREEN-1:0];
+            assign m_y        = y[W_SCREEN-1:0];
+            assign line_busy  = lines != '0;
+            assign unused_top = ^{x, y, unused_rgb};
+            always_ff @(posedge clk) begin
+                lines <= lines + 3'(line_valid && line_ready) - 3'(m_valid && m_ready && unused_last);
+                if (!rst_n) lines <= '0;
+            end
+        end
+    endgenerate
 
     generate
         if (TAGGED != 0) begin : g_tagged
@@ -249,6 +309,7 @@ module wireframe #(
 
     always_ff @(posedge clk) begin
         done <= 1'b0;
+        lost <= 1'b0;
         if (project_valid && !clipping) stored <= stored + 1'b1;
         if (!clip_stage_idle) started <= 1'b1;
         if (clipped_valid) left_over <= 1'b1;
@@ -299,7 +360,10 @@ module wireframe #(
                 started    <= 1'b0;
                 left_over  <= 1'b0;
                 // Both ends before the near plane, or both beyond the far plane: nothing is seen.
-                if ((flags_a[1:0] & projected[2*W+:2]) != 2'd0) begin
+                if (CLIP == 0 && {flags_a, projected[2*W+:3]} != '0) begin
+                    lost  <= 1'b1;
+                    state <= EDGE_READ;
+                end else if ((flags_a[1:0] & projected[2*W+:2]) != 2'd0) begin
                     state <= EDGE_READ;
                 end else if (flags_a != '0 || projected[2*W+:3] != '0) begin
                     clipping <= 1'b1;

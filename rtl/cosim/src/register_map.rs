@@ -58,7 +58,7 @@ pub const STATUS_COMMITTED_LSB: u32 = 1;
 pub const STATUS_LATE_MASK: u32 = 0x00000004;
 /// Lowest bit of it.
 pub const STATUS_LATE_LSB: u32 = 2;
-/// a line found no line memory, or came after the blank: a picture was not complete.
+/// a line found no line memory, or came after the blank, or left the screen where there are no clip stages: a picture was not complete.
 pub const STATUS_INCOMPLETE_MASK: u32 = 0x00000008;
 /// Lowest bit of it.
 pub const STATUS_INCOMPLETE_LSB: u32 = 3;

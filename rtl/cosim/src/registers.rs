@@ -158,7 +158,7 @@ pub const REGISTERS: &[Register] = &[
                 1,
                 0,
                 Sticky,
-                "a line found no line memory, or came after the blank: a picture was not complete",
+                "a line found no line memory, or came after the blank, or left the screen where there are no clip stages: a picture was not complete",
             ),
         ],
     ),

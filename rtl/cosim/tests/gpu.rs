@@ -270,6 +270,45 @@ fn stand_alone_turns_the_model_without_a_host() {
 }
 
 #[test]
+fn the_small_configuration_draws_what_is_in_view() {
+    // What the iCEBreaker shows: 320x240 in single-port memory, one multiplier, no clip stages.
+    let mut gpu = Gpu::new("gpu_up5k");
+    gpu.stop(false);
+    let model = model("torus.obj");
+    let mesh = model.parts[0].mesh.as_mesh();
+    gpu.load(&mesh);
+    let (camera, spin) = board_spin();
+    let material = Material { colour: INK, ..Material::default() };
+    for angle in (0..1024).step_by(if views(1) == 1 { 128 } else { 16 }) {
+        let matrix = spin.matrix(angle);
+        gpu.matrix(&matrix, 0);
+        let picture = gpu.picture();
+        let transform = Mat4 { m: matrix.m.map(|row| row.map(i64::from)) };
+        assert_eq!(
+            ClipMatrix::new(&transform).m,
+            matrix.m,
+            "the library keeps the matrix as it is"
+        );
+        let camera = Camera { projection: Mat4::IDENTITY, view: Mat4::IDENTITY, ..camera };
+        let object = Object { transform, ..Object::new(&mesh, &material, Mode::Wire) };
+        let wanted: Vec<_> =
+            frame(&[object], camera, 320, 240).iter().map(|p| common::pins(*p, [4; 3])).collect();
+        assert_eq!(
+            difference(&picture, &common::doubled(&wanted, 320), 640),
+            None,
+            "angle {angle}"
+        );
+    }
+    println!("torus.obj at 320x240: {} clocks", gpu.read(map::CLOCKS));
+    assert_eq!(gpu.read(map::STATUS) & map::STATUS_INCOMPLETE_MASK, 0);
+    // An edge that leaves the screen is left out, and that is told.
+    let near = self::camera(0.0, 20.0, 1.2);
+    gpu.matrix(&clip_matrix(&near, &Mat4::IDENTITY), 0);
+    gpu.picture();
+    assert_ne!(gpu.read(map::STATUS) & map::STATUS_INCOMPLETE_MASK, 0);
+}
+
+#[test]
 fn the_boards_tables_are_up_to_date() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     for name in spin::BOARD_MODELS {
