@@ -146,6 +146,7 @@ def main():
     lines = [f"lines:{length}:{kind}" for length in TINYGL for kind in LINE_KINDS]
     cases, lines = ([c for c in names if options.only in c] for names in (cases, lines))
     work = cases + [f"prepare:{c}" for c in cases if not c.startswith("empty")] + lines
+    work += [f"scalar:{c}" for c in cases if c.rsplit(":", 1)[0] in SCALAR_TARGET]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         counts = dict(zip(work, pool.map(lambda case: per_frame(count, case), work)))
     show_origin(options.commit)
@@ -180,11 +181,12 @@ def show_frames(count, cases, counts):
         draw = None if prepare is None else whole - prepare
         ratio = "" if reference[0] is None else f"{whole / 1e6 / reference[0]:.2f}"
         numbers = [millions(v) for v in (whole, prepare, draw)]
+        shown.insert(3, millions(counts.get(f"scalar:{case}")))
         rows.append([f"{source} {look}", size, *numbers, shown[0], ratio, *shown[1:]])
         if source != "empty":
             triangles, vertices, primitives, store, band, _ = facts(count, case)
             memory.setdefault((source, size, vertices, primitives, store, band), []).append(look)
-    head = ["case", "size", "frame", "prepare", "draw", "TGX", "ratio", "small3dlib", "target", "scalar target"]
+    head = ["case", "size", "frame", "prepare", "draw", "TGX", "ratio", "small3dlib", "target", "scalar", "its target"]
     print("Millions of instructions a frame:\n")
     table(head, rows)
     print("Memory of a frame, in bytes, for the caller's slices:\n")

@@ -1,6 +1,7 @@
 //! `count CASE FRAMES`: prepares everything, then draws the frame FRAMES times: what `instructions.py` runs in valgrind.
 //!
-//! A case is `SOURCE:LOOK:WIDTHxHEIGHT` (see `scenes::Case`), with a prefix `prepare:` to stop before drawing, or
+//! A case is `SOURCE:LOOK:WIDTHxHEIGHT` (see `scenes::Case`), with a prefix `prepare:` to stop before drawing or `scalar:` to draw
+//! pixel by pixel, or
 //! `lines:long|short:KIND`, which draws a thousand lines a frame:
 //!
 //! | kind | what is drawn |
@@ -21,6 +22,7 @@ use std::env;
 use std::hint::black_box;
 use std::process::ExitCode;
 
+use scanout::frame::{Settings, Traversal};
 use scanout::output::{PixelFormat, Rgb565};
 use scanout::raster::line::{Field, LineEnd, walk, walk_cells};
 use scanout_benches::lines::{self, CLIP, HEIGHT, Line, WIDTH};
@@ -57,8 +59,13 @@ fn run(case: &str, frames: u32) -> Result<(), String> {
         Some(rest) => (rest, true),
         None => (case, false),
     };
+    let (case, traversal) = match case.strip_prefix("scalar:") {
+        Some(rest) => (rest, Traversal::Pixels),
+        None => (case, Traversal::Spans),
+    };
     let data = Data::new(Case::parse(case)?)?;
     data.with(|scene, settings, memory| {
+        let settings = Settings { traversal, ..settings };
         if frames == 0 {
             let (frame, colour, depth) = memory.prepare(scene, settings);
             let hash = frame.hash::<Rgb565>(settings.height, colour, depth);

@@ -21,7 +21,9 @@ fn check<F: PixelFormat>(name: &str, scene: &Scene) {
     for dither in [false, true] {
         let settings = Settings { dither, ..SIZE };
         let whole: Picture<F> = draw(scene, settings, SIZE.height, false);
-        for traversal in [Traversal::Spans, Traversal::Baseline, Traversal::Tiles] {
+        for traversal in
+            [Traversal::Spans, Traversal::Baseline, Traversal::Pixels, Traversal::Tiles]
+        {
             for (lines, backwards) in [(1, false), (7, false), (7, true), (SIZE.height, true)] {
                 let other: Picture<F> =
                     draw(scene, Settings { traversal, ..settings }, lines, backwards);
@@ -215,6 +217,7 @@ fn clouds_of_small_triangles() {
                 (Traversal::Spans, 9),
                 (Traversal::Baseline, 120),
                 (Traversal::Baseline, 1),
+                (Traversal::Pixels, 120),
                 (Traversal::Tiles, 120),
             ] {
                 let settings = Settings { traversal, ..SIZE };

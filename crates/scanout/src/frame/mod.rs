@@ -46,6 +46,8 @@ pub enum Traversal {
     Spans,
     /// Row by row, with nothing that the processor must be asked for: on x86-64, SSE2 and no more.
     Baseline,
+    /// Row by row, pixel by pixel: what machines without vector registers do.
+    Pixels,
     /// Tile by tile, 8 x 8 pixels.
     Tiles,
 }

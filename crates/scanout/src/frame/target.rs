@@ -143,10 +143,8 @@ impl<F: PixelFormat> Target<'_, F> {
     fn runs(&mut self, t: &Triangle, mut batch: impl FnMut(&mut Self, &[Run])) {
         let (rows, width) = (self.rows.clone(), self.width as i32);
         match self.traversal {
-            Traversal::Spans | Traversal::Baseline => {
-                spans(t, rows, width, &mut |runs| batch(self, runs))
-            }
             Traversal::Tiles => tiles(t, rows, width, &mut |runs| batch(self, runs)),
+            _ => spans(t, rows, width, &mut |runs| batch(self, runs)),
         }
     }
 
@@ -154,7 +152,11 @@ impl<F: PixelFormat> Target<'_, F> {
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
         if self.dither {
             self.runs(t, |target, runs| target.fill_runs::<S, true>(z, shader, runs));
-        } else if lanes::AVAILABLE && S::SIDE_BY_SIDE && F::rgb565(&mut []).is_some() {
+        } else if lanes::AVAILABLE
+            && self.traversal != Traversal::Pixels
+            && S::SIDE_BY_SIDE
+            && F::rgb565(&mut []).is_some()
+        {
             if self.traversal != Traversal::Tiles && self.width >= LANES && t.is_tiny() {
                 return self.fill_strips(t, z, shader);
             }
