@@ -86,6 +86,11 @@ module wireframe #(
     logic [W_PROJECTED-1:0] projected;
     logic                   clipping;  // the transform's results are the ends of an edge
 
+    // Without the clip stages a vertex must be on the screen.
+    logic [         2:0]    vertex_flags;
+    assign vertex_flags = CLIP != 0 ? project_flags : 3'(
+        project_flags != '0 || project_x[31:4] >= 28'(width) || project_y[31:4] >= 28'(height));
+
     model_memory #(
         .W_WORD(48),
         .WORDS (VERTICES),
@@ -121,11 +126,6 @@ module wireframe #(
         .read_address (projected_address),
         .read_word    (projected)
     );
-
-    // Without the clip stages a vertex must be on the screen.
-    logic [         2:0]    vertex_flags;
-    assign vertex_flags = CLIP != 0 ? project_flags : 3'(
-        project_flags != '0 || project_x[31:4] >= 28'(width) || project_y[31:4] >= 28'(height));
 
     // --------------------------------------------------------------------------------------------------- transform and project
     logic               transform_valid;

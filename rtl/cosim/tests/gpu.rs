@@ -185,6 +185,9 @@ fn views(usual: u32) -> u32 {
 
 #[test]
 fn shipped_models_as_wireframes_are_the_librarys_frames() {
+    if common::netlists_only() {
+        return;
+    }
     let mut gpu = Gpu::new("gpu_plane");
     gpu.stop(false);
     gpu.write(map::INK, pack(INK));
@@ -225,6 +228,9 @@ fn shipped_models_as_wireframes_are_the_librarys_frames() {
 
 #[test]
 fn stand_alone_turns_the_model_without_a_host() {
+    if common::netlists_only() {
+        return;
+    }
     let mut gpu = Gpu::new("gpu_plane");
     gpu.stop(true);
     // What the ULX3S shows: 529 vertices and 1,520 edges.
@@ -271,6 +277,9 @@ fn stand_alone_turns_the_model_without_a_host() {
 
 #[test]
 fn the_small_configuration_draws_what_is_in_view() {
+    if common::netlists_only() {
+        return;
+    }
     // What the iCEBreaker shows: 320x240 in single-port memory, one multiplier, no clip stages.
     let mut gpu = Gpu::new("gpu_up5k");
     gpu.stop(false);
@@ -323,6 +332,9 @@ fn the_boards_tables_are_up_to_date() {
 
 #[test]
 fn system_c_s_cube_in_line_memories_without_a_framebuffer() {
+    if common::netlists_only() {
+        return;
+    }
     // 12 edges in three groups: front, back, sides; each group has its colour.
     let corner = |i: u16| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { 18000i16 } else { -18000 });
     let positions: Vec<[i16; 3]> = (0..8).map(corner).collect();

@@ -81,6 +81,9 @@ fn composed(arrangement: u32, left: &[[u8; 3]], right: &[[u8; 3]]) -> Vec<[u8; 3
 
 #[test]
 fn stereo_and_overlay_are_the_librarys_integers() {
+    if common::netlists_only() {
+        return;
+    }
     let mut random = Random::new(21);
     let camera: Vec<[u8; 3]> =
         (0..WIDTH * 480).map(|_| [0; 3].map(|_: u8| random.below(256) as u8)).collect();
@@ -111,6 +114,9 @@ fn stereo_and_overlay_are_the_librarys_integers() {
 
 #[test]
 fn a_camera_that_comes_too_late_costs_the_rest_of_a_frame_and_nothing_slips() {
+    if common::netlists_only() {
+        return;
+    }
     let mut random = Random::new(23);
     let camera: Vec<[u8; 3]> = (0..WIDTH * 480)
         .map(|i| [1 + (i % 255) as u8, (i / WIDTH) as u8, random.below(256) as u8])

@@ -68,6 +68,9 @@ fn in_order(seen: &[Seen], wanted: &[Vec<[u8; 3]>], width: usize) -> (usize, usi
 
 #[test]
 fn a_one_bit_plane_shows_whole_pictures_sixty_times_a_second() {
+    if common::netlists_only() {
+        return;
+    }
     let mut screen = Screen::new("screen_plane", Mode::VGA, 1);
     screen.set("ink", pack(INK));
     screen.set("background", pack(BACK));
@@ -89,6 +92,9 @@ fn a_one_bit_plane_shows_whole_pictures_sixty_times_a_second() {
 
 #[test]
 fn slow_drawing_repeats_a_picture_and_never_shows_half_of_one() {
+    if common::netlists_only() {
+        return;
+    }
     // The drawing side's own clock is 3.75 times, then 0.75 times the pixel clock; it waits more often than it draws.
     for (quarters, stalls) in [(15, 97), (3, 85)] {
         let mut screen = Screen::new("screen_plane", Mode::VGA, 3);
@@ -115,6 +121,9 @@ fn slow_drawing_repeats_a_picture_and_never_shows_half_of_one() {
 
 #[test]
 fn another_mode_and_single_port_memory() {
+    if common::netlists_only() {
+        return;
+    }
     for (name, mode, size, scale, bits) in [
         ("screen_plane_800", Mode::SVGA, (800, 600), 1, [8, 8, 8]),
         ("screen_spram", Mode::VGA, (320, 240), 2, [4, 4, 4]),
@@ -140,6 +149,9 @@ fn another_mode_and_single_port_memory() {
 
 #[test]
 fn a_colour_framebuffer_holds_any_format() {
+    if common::netlists_only() {
+        return;
+    }
     let size = (320, 240);
     let widened = |p: &Pixel, format: u8| match format {
         2 => {
@@ -172,6 +184,9 @@ fn a_colour_framebuffer_holds_any_format() {
 
 #[test]
 fn line_memories_are_the_painters_picture_without_a_framebuffer() {
+    if common::netlists_only() {
+        return;
+    }
     let palette = [[255, 0, 0], [0, 255, 0], [64, 64, 255], [255, 255, 255]];
     let mut screen = Screen::new("screen_lines", Mode::VGA, 9);
     let port = screen.model.port("palette");
@@ -227,6 +242,9 @@ fn line_memories_are_the_painters_picture_without_a_framebuffer() {
 
 #[test]
 fn lines_without_room_are_counted() {
+    if common::netlists_only() {
+        return;
+    }
     let mut screen = Screen::new("screen_lines", Mode::VGA, 11);
     let end = |x, y| scanout::raster::line::LineEnd { x, y, ..Default::default() };
     // 13 flat lines across the same columns: the last one finds no memory.

@@ -18,6 +18,11 @@ pub struct Pixel {
     pub right: bool,
 }
 
+/// Whether only modules that have a netlist are tested again; whole screens have none.
+pub fn netlists_only() -> bool {
+    std::env::var_os("SCANOUT_SHORT").is_some_and(|v| !v.is_empty())
+}
+
 pub fn pack(rgb: [u8; 3]) -> u32 {
     u32::from_be_bytes([0, rgb[0], rgb[1], rgb[2]])
 }
