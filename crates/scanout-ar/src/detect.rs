@@ -323,3 +323,90 @@ fn same_place(a: &Corners, b: &Corners) -> bool {
     let (p, q) = (twice_area(a), twice_area(b));
     sqrt(dx * dx + dy * dy) < 0.25 * sqrt(p / 2.0) && p < 2.0 * q && q < 2.0 * p
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    /// Detects in memory of exactly the size that is asked for.
+    fn search(image: &GreyImage, dictionary: Dictionary) -> Vec<Detection> {
+        let needed = Needed::for_size(image.width(), image.height());
+        let mut memory = Memory {
+            sums: &mut vec![7; needed.sums],
+            bits: &mut vec![7; needed.bits],
+            passed: &mut vec![7; needed.bits],
+            halves: &mut vec![7; needed.halves],
+            points: &mut vec![[7; 2]; needed.points],
+        };
+        let mut found = [Detection::default(); 4];
+        let count =
+            detect(image, &[dictionary], &Parameters::default(), &mut memory, &mut found).unwrap();
+        found[..count].to_vec()
+    }
+
+    /// Marker 23 of a dictionary on grey: `cell` pixels a cell, its border's corner at `at`.
+    fn drawn(dictionary: &Dictionary, cell: usize, at: usize) -> Vec<u8> {
+        let code = dictionary.code(23).unwrap();
+        let side = usize::from(dictionary.side) + 2;
+        (0..320 * 240)
+            .map(|i| {
+                let place = |p: usize| (p + cell).checked_sub(at).map(|p| p / cell);
+                match (place(i % 320), place(i / 320)) {
+                    (Some(c), Some(r)) if c < side + 2 && r < side + 2 => {
+                        let inside = (1..=side).contains(&c) && (1..=side).contains(&r);
+                        let white = !inside || dictionary.is_white(code, c - 1, r - 1);
+                        if white { 220 } else { 30 }
+                    }
+                    _ => 120,
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn corners_lie_where_the_marker_was_drawn() {
+        for dictionary in Dictionary::ALL {
+            for cell in [4, 9, 20] {
+                let pixels = drawn(dictionary, cell, 40);
+                let found = search(&GreyImage::new(320, 240, 320, &pixels).unwrap(), *dictionary);
+                assert_eq!(found.len(), 1, "{} {cell}", dictionary.name);
+                assert_eq!(found[0].id, 23);
+                let far = 40.0 + (cell * (usize::from(dictionary.side) + 2)) as f64;
+                let want = [[40.0, 40.0], [far, 40.0], [far, far], [40.0, far]];
+                for (got, want) in found[0].corners.as_flattened().iter().zip(want.as_flattened()) {
+                    assert!((got - want).abs() < 0.05, "{} {cell}: {found:?}", dictionary.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tiny_and_empty_pictures_hold_nothing() {
+        for (width, height) in [(0, 0), (1, 1), (2, 7), (3, 3), (5, 1), (31, 33)] {
+            let pixels = vec![128; width * height];
+            let image = GreyImage::new(width, height, width, &pixels).unwrap();
+            assert_eq!(search(&image, Dictionary::ARUCO_4X4_50), []);
+        }
+    }
+
+    #[test]
+    fn memory_is_stated_and_too_little_is_told() {
+        let needed = Needed::for_size(320, 240);
+        assert_eq!(needed.bytes(), 52_592);
+        let image = GreyImage::new(320, 240, 320, &[0; 320 * 240]).unwrap();
+        let mut memory = Memory {
+            sums: &mut [0; 1],
+            bits: &mut [],
+            passed: &mut [],
+            halves: &mut [],
+            points: &mut [],
+        };
+        let all = [Dictionary::ARUCO_4X4_50];
+        let got = detect(&image, &all, &Parameters::default(), &mut memory, &mut []);
+        assert_eq!(got, Err(DetectError::Memory(needed)));
+        assert!(std::format!("{}", got.unwrap_err()).contains("52592 bytes"));
+    }
+}
