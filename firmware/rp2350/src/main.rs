@@ -1,5 +1,5 @@
 //! Raspberry Pi Pico 2 (RP2350) with an ST7789 of 320 x 240, on either kind of its cores: Cortex-M33
-//! (`thumbv8m.main-none-eabihf`) or Hazard3 (`riscv32imac-unknown-none-elf`). What it does, its wiring and its memory are those
+//! (`thumbv8m.main-none-eabihf`) or Hazard3 (`riscv32imac-unknown-none-elf`). What it does and its wiring are those
 //! of the Pico: see `../rp2040/src/main.rs`; the two boards have the same pins.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
