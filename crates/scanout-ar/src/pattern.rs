@@ -129,7 +129,7 @@ pub fn refine(
         }
         usual = (fit.off.0 / fit.off.1.max(1.0)).max(0.02);
         agreement = 1.0 - fit.misfit.0 / fit.misfit.1.max(1e-9);
-        if round > 0 && moved < 0.01 {
+        if round > 0 && moved < 0.02 {
             break;
         }
     }

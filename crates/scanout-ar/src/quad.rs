@@ -57,9 +57,9 @@ pub fn is_square_in_perspective(corners: &Corners, width: usize, slack: f64) -> 
 /// Could this outline be a marker at all? Its length and area tell.
 pub fn is_plausible(outline: &Outline, least_side: usize) -> bool {
     let length = outline.length as i64;
-    // A square's outline along cracks is at least 4 sides long; seen at a slant of 1 to 8 its squared length is 81/8 of that
-    // of a square of equal area, and up to twice that along diagonals.
-    length >= 4 * least_side as i64 && length * length < 330 * outline.area
+    // A square's outline along cracks has 16 times its area as squared length; seen at a slant of 1 to 8, 40 times; along diagonals
+    // twice that; noise makes it longer still.
+    length >= 4 * least_side as i64 && length * length < 110 * outline.area
 }
 
 /// The quadrilateral that an outline is, if it is one. All of its points must have been kept.
