@@ -31,7 +31,36 @@ pub struct TextureSetup<'a> {
 /// | [1, 2^23] | [2^24 - 1, 2^47 - 1] |
 #[inline(always)]
 pub fn reciprocal(q: u32) -> u64 {
-    ((1u64 << 47) - 1) / q as u64
+    if NARROW && (1 << 15..1 << 24).contains(&q) {
+        long_division(q) as u64
+    } else {
+        ((1u64 << 47) - 1) / q as u64
+    }
+}
+
+/// A machine of 32 bits: 64-bit shifts and divisions are calls.
+const NARROW: bool = cfg!(target_pointer_width = "32");
+
+/// [`reciprocal`] for `q` in [2^15, 2^24): 23 bits of the dividend, then eight and eight, by 32-bit divisions.
+#[inline(always)]
+fn long_division(q: u32) -> u32 {
+    let top = (1 << 23) - 1;
+    let (mut r, mut rest) = (top / q, top % q);
+    for _ in 0..3 {
+        rest = rest << 8 | 255;
+        (r, rest) = (r << 8 | rest / q, rest % q);
+    }
+    r
+}
+
+/// `product >> shift` for shifts of 28 and more.
+#[inline(always)]
+fn whole(product: u64, shift: u32) -> u64 {
+    if NARROW && shift >= 32 {
+        ((product >> 32) as u32 >> (shift - 32)) as u64
+    } else {
+        product >> shift
+    }
 }
 
 /// The integer part of the 1/w plane's value, at least 1.
@@ -146,11 +175,11 @@ impl<'a> Repeat565<'a> {
     pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
         let [x, y] = [0, 1].map(|i| {
             let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift[i] - 1));
-            let texel = product >> (shift[i] + SUBTEXEL_BITS);
+            let texel = whole(product, shift[i] + SUBTEXEL_BITS);
             // Whole repeats are taken off at setup: few triangles reach into the next one.
-            if texel < self.size[i] { texel } else { texel % self.size[i] }
+            (if texel < self.size[i] { texel } else { texel % self.size[i] }) as usize
         });
-        let index = (y * self.size[0] + x) as usize;
+        let index = y * self.size[0] as usize + x;
         self.texels.get(index).copied().unwrap_or(0)
     }
 }
@@ -201,6 +230,13 @@ fn cube_root(n: u128) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_division_is_division() {
+        for q in (1 << 15..1 << 24).step_by(97).chain([1 << 15, (1 << 24) - 1, 1 << 23]) {
+            assert_eq!(long_division(q) as u64, ((1u64 << 47) - 1) / q as u64, "{q}");
+        }
+    }
 
     #[test]
     fn cube_roots() {
