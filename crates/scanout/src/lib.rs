@@ -75,7 +75,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![no_std]
-// `unsafe` is in two places, `lanes::sse2` and `avx2`, each beside its reason.
+// `unsafe` is in three places, `lanes::sse2`, `avx2` and `raster::line::fill`, each beside its reason.
 #![deny(unsafe_code)]
 
 mod avx2;

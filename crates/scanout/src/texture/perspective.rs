@@ -48,7 +48,7 @@ fn long_division(q: u32) -> u32 {
     let (mut r, mut rest) = (top / q, top % q);
     for _ in 0..3 {
         rest = rest << 8 | 255;
-        (r, rest) = (r << 8 | rest / q, rest % q);
+        (r, rest) = ((r << 8) | (rest / q), rest % q);
     }
     r
 }
