@@ -40,10 +40,8 @@ impl Spin {
         let mut real = [[0.0; 3]; 16];
         for row in 0..4 {
             for column in 0..3 {
-                for part in 0..3 {
-                    real[row * 4 + column][part] =
-                        (0..3).map(|k| view[row][k] * turn(k, column)[part] * scale).sum();
-                }
+                real[row * 4 + column] = [0, 1, 2]
+                    .map(|part| (0..3).map(|k| view[row][k] * turn(k, column)[part] * scale).sum());
             }
             real[row * 4 + 3][0] = view[row][3];
         }

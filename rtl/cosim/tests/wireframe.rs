@@ -170,7 +170,7 @@ const CUBE: [[i16; 3]; 8] = {
     let mut corners = [[LOW; 3]; 8];
     let mut i = 0;
     while i < 24 {
-        if i / 3 >> (i % 3) & 1 == 1 {
+        if ((i / 3) >> (i % 3)) & 1 == 1 {
             corners[i / 3][i % 3] = HIGH;
         }
         i += 1;
