@@ -26,7 +26,7 @@ module clip (
     localparam int V = 46;
     localparam logic [1:0] AT_W = 2'd0;
 
-    typedef enum logic [2:0] {LOAD, DISTANCE, JUDGE, FETCH, CROSS, STORE, UNLOAD} state_t;
+    typedef enum logic [2:0] {LOAD, DISTANCE, JUDGE, FETCH, CROSS, ROUND, STORE, UNLOAD} state_t;
     state_t             state;
     logic [2:0]         count, plane;
     logic [1:0]         axis;
@@ -80,7 +80,7 @@ module clip (
     assign delta = 33'(word) - 33'(base);
     // Up by half of d and more, where the coordinate falls only by more than that.
     assign twice = $signed({1'b0, r, 1'b0}) + $signed(~{2'b0, d}) + $signed({{V{1'b0}}, !fall});
-    assign up    = twice >= 0;
+    always_ff @(posedge clk) up <= twice >= 0;
     muldiv #(
         .W_B(32),
         .W_D(V - 1)
@@ -139,7 +139,9 @@ module clip (
                     state <= CROSS;
                 end
             end
-            CROSS: if (!start && !busy) state <= STORE;
+            CROSS: if (!start && !busy) state <= ROUND;
+            // `up` is known one clock after the remainder.
+            ROUND: state <= STORE;
             STORE: begin
                 count <= '0;
                 axis  <= axis + 1'b1;

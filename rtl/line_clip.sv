@@ -47,7 +47,7 @@ module line_clip #(
     localparam int V = W + 2;
 
     typedef enum logic [3:0] {
-        EMPTY, BOUNDS, INSIDE, ENTER, ENTERED, LEAVE, LEFT, EMPTY_OR_FIRST, ADVANCE, FULL
+        EMPTY, BOUNDS, INSIDE, ENTER, ENTERED, LEAVE, LEFT, EMPTY_OR_FIRST, ADVANCE, SETTLE, FULL
     } state_t;
     state_t state;
 
@@ -78,8 +78,14 @@ module line_clip #(
         .busy(busy),
         .q(q)
     );
+    // Its results are used a clock after it has them: `settled`, and the quotient rounded up in a register.
+    logic                settled, reach;
     logic signed [V-1:0] quotient_up;
-    assign quotient_up = $signed({1'b0, q}) + V'(signed'({1'b0, rest != '0}));
+    always_ff @(posedge clk) begin
+        settled     <= (state == ENTERED || state == LEFT || state == ADVANCE) && !start && !busy;
+        quotient_up <= $signed({1'b0, q}) + V'(signed'({1'b0, rest != '0}));
+        reach       <= $signed(rest) >= n_signed;
+    end
 
     // What is loaded into the divider: entering, leaving, and the error where the line enters.
     logic signed [V-1:0] odd;
@@ -96,7 +102,7 @@ module line_clip #(
     logic signed [V-1:0] rest_signed;
     assign rest_signed = $signed(rest);
     logic signed [V-1:0] advance;
-    assign advance = $signed({1'b0, q}) + V'(signed'({1'b0, rest_signed >= n_signed}));
+    assign advance = $signed({1'b0, q}) + V'(signed'({1'b0, reach}));
 
     always_ff @(posedge clk) begin
         start <= 1'b0;
@@ -142,11 +148,11 @@ module line_clip #(
                     state <= highest < m_signed ? LEFT : EMPTY_OR_FIRST;
                 end
             end
-            ENTERED: if (!start && !busy) begin
+            ENTERED: if (settled) begin
                 if (quotient_up > first) first <= quotient_up;
                 state <= LEAVE;
             end
-            LEFT: if (!start && !busy) begin
+            LEFT: if (settled) begin
                 if (quotient_up <= last) last <= quotient_up - 1;
                 state <= EMPTY_OR_FIRST;
             end
@@ -159,11 +165,14 @@ module line_clip #(
                 major   <= major + first;
                 state   <= first > last ? EMPTY : first == 0 ? FULL : ADVANCE;
             end
-            ADVANCE: if (!start && !busy) begin
+            ADVANCE: if (settled) begin
                 // v = q 2 n + rest + n.
-                m_error <= (rest_signed < n_signed ? rest_signed + n_signed : rest_signed - n_signed)
-                           + ((m_signed - n_signed) <<< 1);
+                m_error <= reach ? rest_signed - n_signed : rest_signed + n_signed;
                 minor   <= back ? minor - advance : minor + advance;
+                state   <= SETTLE;
+            end
+            SETTLE: begin
+                m_error <= m_error + (V'(m_turn) <<< 1);
                 state   <= FULL;
             end
             default: if (m_ready) state <= EMPTY;
