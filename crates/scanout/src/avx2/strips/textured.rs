@@ -247,7 +247,7 @@ pub fn textured(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::avx2::{Avx2, STRIP, Source};
+    use crate::avx2::{Avx2, Planes, STRIP, Source};
     use crate::output::{PixelFormat, Rgb565, widen565};
     use crate::shade::modulate;
     use crate::texture::{Texels, Texture};
