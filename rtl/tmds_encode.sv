@@ -18,7 +18,7 @@ module tmds_encode (
 );
     function automatic logic [3:0] ones(input logic [7:0] v);
         ones = '0;
-        for (int i = 0; i < 8; i++) ones = ones + 4'(v[i]);
+        for (int i = 0; i < 8; i++) ones = ones + {3'b000, v[i]};
     endfunction
 
     // Stage 1: how many ones.
@@ -36,10 +36,13 @@ module tmds_encode (
     logic        [1:0] control_2;
     logic        [7:0] chain;
 
-    always_comb begin
-        // Bit i of the chain is the parity of bits 0 to i; an XNOR at each step turns every second one over.
-        for (int i = 0; i < 8; i++) chain[i] = ^(data_1 & 8'(8'hff >> (7 - i))) ^ (xnor_1 && i % 2 == 1);
-    end
+    // Bit i of the chain is the parity of bits 0 to i; an XNOR at each step turns every second one over.
+    generate
+        for (genvar i = 0; i < 8; i++) begin : g_chain
+            if (i % 2 == 1) assign chain[i] = ^data_1[i:0] ^ xnor_1;
+            else assign chain[i] = ^data_1[i:0];
+        end
+    endgenerate
 
     // Stage 3: the word.
     logic signed [4:0] balance;
@@ -63,7 +66,7 @@ module tmds_encode (
         control_1   <= s_control;
 
         q_m_2       <= {!xnor_1, chain};
-        more_ones_2 <= 4'(ones(chain) - 4'd4);
+        more_ones_2 <= ones(chain) - 4'd4;
         active_2    <= active_1;
         control_2   <= control_1;
 
