@@ -241,10 +241,6 @@ impl<'f> Painter<'f> {
         for i in 2..corners.len() {
             let fan = [corners[0], corners[i - 1], corners[i]];
             let vertices = fan.map(|c| Vertex { rgb: c.rgb, ..viewport.project(&c.clip) });
-            // Rounding may leave a corner a hair outside a plane; there is nothing to see there.
-            if vertices.iter().any(|v| v.flags & crate::transform::CLIP != 0) {
-                continue;
-            }
             if let Some(t) = Triangle::new(vertices.each_ref().map(|v| [v.x, v.y])) {
                 self.paint(&t, vertices.each_ref(), &Corners::Clipped(&fan), target);
             }
