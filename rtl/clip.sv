@@ -3,7 +3,8 @@
 //   distance from plane 0 ... 5:  min(z, w - 1),  w - z,  2^13 w + x,  2^13 w - x,  2^13 w + y,  2^13 w - y      inside: >= 0
 //   v = v_in + (v_out - v_in) d_in / (d_in - d_out)        each coordinate, rounded to nearest, exact
 //
-// Planes come in this order, each seeing what the one before left; a line whose ends are both outside of one vanishes.
+// Planes come in this order, each seeing what the one before left; a line whose ends are both outside of one vanishes. Rounding may
+// leave a new end's z above its w, by one; it goes out as w.
 //
 //   | s_data, m_data | clip coordinates of one end, then of the other: w, x, y, z each; 32 bits with sign, below 2^30 + 4  |
 //   | idle           | no line is in here                                                                                 |
@@ -31,18 +32,20 @@ module clip (
     logic [2:0]         count, plane;
     logic [1:0]         axis;
     logic               a_outside;
-    logic [2:0]         read_address, write_address;
+    logic [2:0]         read_address, write_address, unload;
     logic               write;
     logic signed [31:0] words[8];
     logic signed [31:0] word, write_data;
     assign s_ready = state == LOAD;
     assign m_valid = state == UNLOAD && count[0];
-    assign m_data  = word;
+    // Its w goes out before an end's z, the last of four words.
+    logic signed [31:0] last_w;
+    assign m_data = unload[1:0] == 2'd0 && word > last_w ? last_w : word;
+    always_ff @(posedge clk) if (state == UNLOAD && count[0] && unload[1:0] == 2'd1) last_w <= word;
     assign idle    = state == LOAD && count == '0;
 
     // What the next state needs is read one clock before.
     logic [1:0] other;
-    logic [2:0] unload;
     assign other = plane[2:1] == 2'd0 ? 2'd3 : plane[2:1];
     always_comb begin
         case (state)

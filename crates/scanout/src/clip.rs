@@ -8,8 +8,9 @@
 //! ```
 //!
 //! always from the inside corner outwards: two triangles that share the edge get the same vertex, so no crack opens. As each
-//! coordinate is rounded on its own, a new vertex of a triangle may lie outside by a hair; it is brought back, `w >= 1`, `0 <= z <= w`,
-//! `|x|, |y| <= 8192 w`. What it will not do: clip against the screen's sides (that would move edges by rounding their ends).
+//! coordinate is rounded on its own, a new vertex may lie outside by a hair; it is brought back: of a line to `z <= w`, of a triangle to
+//! `w >= 1`, `0 <= z <= w` and `|x|, |y| <= 8192 w` (a line's end beyond the guard band by a hair drops the line). What
+//! it will not do: clip against the screen's sides (that would move edges by rounding their ends).
 
 use crate::transform::GUARD_BITS;
 
@@ -137,6 +138,9 @@ pub fn line(mut a: Corner, mut b: Corner) -> Option<[Corner; 2]> {
             (false, false) => return None,
         }
     }
+    for corner in [&mut a, &mut b] {
+        corner.clip[2] = corner.clip[2].min(corner.clip[3]);
+    }
     Some([a, b])
 }
 
@@ -177,6 +181,20 @@ mod tests {
             let (a, b) = (any(), any());
             assert_eq!(line(a, b).map(|[p, q]| [q, p]), line(b, a));
         }
+    }
+
+    #[test]
+    fn lines_cut_by_the_far_plane_end_on_it() {
+        let mut cut = 0;
+        for i in 1..2000 {
+            let (a, b) = (corner([0, 0, 100 * i, 301 * i]), corner([5, 9, 997 * i + 13, 401 * i]));
+            let Some([a, b]) = line(a, b) else { panic!("{i}") };
+            assert!(
+                (0..2).all(|plane| distance(plane, &a.clip).min(distance(plane, &b.clip)) >= 0)
+            );
+            cut += (distance(1, &b.clip) == 0) as u32;
+        }
+        assert!(cut > 1000, "{cut}");
     }
 
     #[test]
