@@ -4,7 +4,7 @@
 //   v = v_in + (v_out - v_in) d_in / (d_in - d_out)        each coordinate, rounded to nearest, exact
 //
 // Planes come in this order, each seeing what the one before left; a line whose ends are both outside of one vanishes. Rounding may
-// leave a new end's z above its w, by one; it goes out as w.
+// leave a new end's x or y beyond 2^13 w by a hair; it goes out as that.
 //
 //   | s_data, m_data | clip coordinates of one end, then of the other: w, x, y, z each; 32 bits with sign, below 2^30 + 4  |
 //   | idle           | no line is in here                                                                                 |
@@ -38,10 +38,17 @@ module clip (
     logic signed [31:0] word, write_data;
     assign s_ready = state == LOAD;
     assign m_valid = state == UNLOAD && count[0];
-    // Its w goes out before an end's z, the last of four words.
-    logic signed [31:0] last_w;
-    assign m_data = unload[1:0] == 2'd0 && word > last_w ? last_w : word;
+    // An end's w goes out first, then its x and y. From 2^18 on w bounds nothing.
+    logic signed [31:0] last_w, bound;
+    logic               on_axis, beyond;
+    assign bound   = {1'b0, last_w[17:0], 13'b0};
+    assign on_axis = (unload[1:0] == 2'd2 || unload[1:0] == 2'd3) && last_w[31:18] == '0;
+    assign beyond  = word[31] ? word < -bound : word > bound;
     always_ff @(posedge clk) if (state == UNLOAD && count[0] && unload[1:0] == 2'd1) last_w <= word;
+    always_comb begin
+        m_data = word;
+        if (on_axis && beyond) m_data = word[31] ? -bound : bound;
+    end
     assign idle    = state == LOAD && count == '0;
 
     // What the next state needs is read one clock before.
