@@ -132,7 +132,9 @@ module transform #(
                 assign shift_3 = add_3 ? {offset_3[31], offset_3, 15'h4000}
                                : high_3 ? {product_3, 16'b0} : 48'(product_3);
             end else begin : g_three
-                logic signed [31:0] product_3[3];
+                logic [95:0]        product_3;
+                logic signed [31:0] x_3, y_3, z_3;
+                assign {z_3, y_3, x_3} = product_3;
                 logic signed [33:0] products;
                 logic signed [31:0] offset_1, offset_2, offset_3;
                 logic               add_3;
@@ -158,15 +160,15 @@ module transform #(
                         logic signed [15:0] digit_2;
                         always_ff @(posedge clk) begin
                             if (advance) begin
-                                digit_2      <= high_1 ? word_1[31:16] + 16'(word_1[15]) : word_1[15:0];
-                                product_3[c] <= digit_2 * $signed(terms_2[16*c+:16]);
+                                digit_2             <= high_1 ? word_1[31:16] + 16'(word_1[15]) : word_1[15:0];
+                                product_3[32*c+:32] <= digit_2 * $signed(terms_2[16*c+:16]);
                             end
                         end
                     end else begin : g_offset
                         assign offset_1 = word_1;
                     end
                 end
-                assign products = 34'(product_3[0]) + 34'(product_3[1]) + 34'(product_3[2]);
+                assign products = 34'(x_3) + 34'(y_3) + 34'(z_3);
                 assign shift_3 = high_3 ? {products[31:0], 16'b0} : 48'(products) + {offset_3[31], offset_3, 15'h4000};
                 always_ff @(posedge clk) begin
                     if (advance) begin

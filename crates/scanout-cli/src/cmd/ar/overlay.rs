@@ -179,8 +179,8 @@ fn camera(lens: &Lens, (width, height): (usize, usize), near: f64, far: f64) -> 
 mod tests {
     use super::*;
 
-    /// A point of the marker appears where the lens says, to a hundredth of a pixel: no half pixel is lost between intrinsics,
-    /// camera and screen, nor with the principal point off the middle.
+    /// A point of the marker appears where the lens says, to a fiftieth of a pixel, which is what Q16.16 leaves: no half pixel is lost
+    /// between intrinsics, camera and screen, nor with the principal point off the middle.
     #[test]
     fn points_appear_where_the_lens_says() {
         let lens = Lens { focal: [610.0, 600.0], centre: [350.0, 200.0], distortion: [0.0; 5] };
@@ -197,7 +197,7 @@ mod tests {
             let [x, y, _, w] = clip.map(|value| value as f64);
             let pixel = [(x / w + 1.0) * 320.0, (1.0 - y / w) * 240.0];
             let want = lens.project(pose.apply(point)).unwrap();
-            assert!((0..2).all(|i| (pixel[i] - want[i]).abs() < 0.01), "{pixel:?} {want:?}");
+            assert!((0..2).all(|i| (pixel[i] - want[i]).abs() < 0.02), "{pixel:?} {want:?}");
         }
     }
 }
