@@ -73,7 +73,7 @@ pub fn triangle(random: &mut Random, kind: Kind, width: u32, height: u32) -> Tri
         Kind::Outside => [a, b, c].map(|_| (random.range(-w, 2 * w), random.range(-h, 2 * h))),
         Kind::Centred => {
             let reach = 8 * STEPS;
-            let pair = if random.bits() % 2 == 0 {
+            let pair = if random.bits().is_multiple_of(2) {
                 (b, c)
             } else {
                 (near(random, a, reach), near(random, a, reach))
@@ -82,8 +82,8 @@ pub fn triangle(random: &mut Random, kind: Kind, width: u32, height: u32) -> Tri
         }
         Kind::Axis => {
             let a = centre(a);
-            let c = if random.bits() % 2 == 0 { centre(c) } else { c };
-            let b = if random.bits() % 2 == 0 { (a.0, b.1) } else { (b.0, a.1) };
+            let c = if random.bits().is_multiple_of(2) { centre(c) } else { c };
+            let b = if random.bits().is_multiple_of(2) { (a.0, b.1) } else { (b.0, a.1) };
             [a, b, c]
         }
     };
