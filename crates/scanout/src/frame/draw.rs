@@ -413,9 +413,6 @@ impl<'f> Painter<'f> {
             };
             let Some(clipped) = clip::line(corner(edge[0]), corner(edge[1])) else { return };
             ends = clipped.map(|c| Vertex { rgb: c.rgb, ..viewport.project(&c.clip) });
-            if ends.iter().any(|v| v.flags & crate::transform::CLIP != 0) {
-                return;
-            }
         }
         let hidden = self.object.mode == Mode::Hidden;
         let clip = target.clip_rect();
