@@ -83,6 +83,7 @@ pub mod camera;
 pub mod clip;
 pub mod cull;
 pub mod depth;
+mod features;
 pub mod frame;
 pub mod hash;
 pub mod interpolate;

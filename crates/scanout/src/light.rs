@@ -19,8 +19,9 @@
 //! computed in the world. What it will not do: shadows, attenuation with distance.
 
 use crate::camera::Viewpoint;
+use crate::features;
 use crate::math::{Mat4, Q16, Vec3, normalise, normalise_q14};
-use crate::scene::{Light, LightKind, Material};
+use crate::scene::{Light, LightKind, Material, Object, Scene};
 
 /// The most lights a scene may have.
 pub const MAX_LIGHTS: usize = 8;
@@ -103,6 +104,12 @@ fn keeps_angles(m: &Mat4) -> bool {
         && [product(0, 1), product(0, 2), product(1, 2)].iter().all(|d| d.abs() <= tolerance)
 }
 
+/// Whether an object is lit so that the feature `all-lights` is not needed for it.
+pub(crate) fn plainly_lit(scene: &Scene, object: &Object) -> bool {
+    object.material.specular <= Q16::ZERO
+        && (scene.lights.is_empty() || keeps_angles(&object.transform))
+}
+
 /// A direction through the linear part of a matrix, Q2.14; zero stays zero.
 fn direction(m: &Mat4, d: Vec3) -> [i32; 3] {
     normalise(m.transform_direction(d)).map_or([0; 3], |d| d.map(|v| (v + (1 << 15)) >> 16))
@@ -124,7 +131,8 @@ fn inverse_transpose(inverse: &Mat4) -> [[i32; 3]; 3] {
 
 impl Lighting {
     /// Prepares the lights for one object. More than [`MAX_LIGHTS`] lights are refused by the frame; here the rest
-    /// is not looked at. A transform that has no inverse leaves ambient light only.
+    /// is not looked at. A transform that has no inverse leaves ambient light only. Without the feature `all-lights` only white
+    /// light from afar on objects whose transform keeps angles is looked at; the frame refuses others.
     pub fn new(
         lights: &[Light],
         floor: Q16,
@@ -135,7 +143,11 @@ impl Lighting {
         let inverse = transform.inverse_affine();
         let (space, to_space, bits) = match inverse {
             // Object coordinates are Q1.15 of the object's unit.
-            Some(inverse) if keeps_angles(transform) => (Space::Object, inverse, 17),
+            Some(inverse) if !features::ALL_LIGHTS || keeps_angles(transform) => {
+                (Space::Object, inverse, 17)
+            }
+            // Ambient light only, below.
+            None if !features::ALL_LIGHTS => (Space::Object, Mat4::IDENTITY, 17),
             Some(inverse) => {
                 let normal = inverse_transpose(&inverse);
                 (Space::World { normal, position: *transform }, Mat4::IDENTITY, 16)
@@ -157,26 +169,34 @@ impl Lighting {
             *lamp = Lamp {
                 towards: match light.kind {
                     LightKind::Directional(d) => ray(d),
-                    LightKind::Point(p) => point(p),
+                    LightKind::Point(p) if features::ALL_LIGHTS => point(p),
+                    LightKind::Point(_) => none.towards,
                 },
                 diffuse: weight(diffuse, light.colour),
                 specular: weight(specular, light.colour),
             };
         }
-        let near = specular > 0 || lights.iter().any(|l| matches!(l.kind, LightKind::Point(_)));
+        let near = features::ALL_LIGHTS
+            && (specular > 0 || lights.iter().any(|l| matches!(l.kind, LightKind::Point(_))));
         Lighting {
             lamps,
-            count: lights.len().min(MAX_LIGHTS),
+            count: if features::ALL_LIGHTS || inverse.is_some() {
+                lights.len().min(MAX_LIGHTS)
+            } else {
+                0
+            },
             viewer: match *viewpoint {
+                _ if !features::ALL_LIGHTS => none.towards,
                 Viewpoint::Point(p) => point(p),
                 Viewpoint::Direction(d) => ray(d),
             },
             ambient: q14(material.ambient),
             floor: q14(floor),
             shininess: material.shininess.max(1),
-            shines: specular > 0,
+            shines: features::ALL_LIGHTS && specular > 0,
             near,
-            plain: !near && lights.iter().all(|l| l.colour == [l.colour[0]; 3]),
+            plain: !features::ALL_LIGHTS
+                || !near && lights.iter().all(|l| l.colour == [l.colour[0]; 3]),
             space,
         }
     }
@@ -190,6 +210,7 @@ impl Lighting {
     #[inline]
     pub fn local(&self, normal: [i16; 3], position: [i16; 3]) -> ([i32; 3], [i32; 3]) {
         match &self.space {
+            _ if !features::ALL_LIGHTS => (normal.map(i32::from), position.map(i32::from)),
             Space::Object => (normal.map(i32::from), position.map(i32::from)),
             Space::World { normal: m, position: transform } => {
                 let n = normal.map(i32::from);
@@ -248,7 +269,7 @@ impl Lighting {
     /// [`local`](Self::local) and [`lit`](Self::lit): a surface colour at a mesh's normal and position.
     #[inline(always)]
     pub fn lit_in_mesh(&self, rgb: [u8; 3], normal: [i16; 3], position: [i16; 3]) -> [u8; 3] {
-        if self.plain && matches!(self.space, Space::Object) {
+        if !features::ALL_LIGHTS || (self.plain && matches!(self.space, Space::Object)) {
             shaded(rgb, [self.plain_intensity(normal.map(i32::from)); 3])
         } else {
             self.lit_anywhere(rgb, normal, position)
@@ -264,8 +285,11 @@ impl Lighting {
     /// A surface colour under the lights.
     #[inline]
     pub fn lit(&self, rgb: [u8; 3], n: [i32; 3], p: [i32; 3]) -> [u8; 3] {
-        let intensity =
-            if self.plain { [self.plain_intensity(n); 3] } else { self.intensity(n, p) };
+        let intensity = if !features::ALL_LIGHTS || self.plain {
+            [self.plain_intensity(n); 3]
+        } else {
+            self.intensity(n, p)
+        };
         shaded(rgb, intensity)
     }
 }

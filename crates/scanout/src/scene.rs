@@ -100,6 +100,13 @@ pub struct Light {
     pub colour: [u8; 3],
 }
 
+impl Light {
+    /// Whether it is white and from afar, which the feature `all-lights` is not needed for.
+    pub(crate) fn is_plain(&self) -> bool {
+        matches!(self.kind, LightKind::Directional(_)) && self.colour == [self.colour[0]; 3]
+    }
+}
+
 /// Fog by distance along the view axis (clip w), in world units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fog {

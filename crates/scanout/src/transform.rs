@@ -101,6 +101,9 @@ pub struct Vertex {
 }
 
 impl Vertex {
+    /// What memory for vertices may begin as, in a static too.
+    pub const EMPTY: Vertex = Vertex { x: 0, y: 0, z: 0, inv_w: 0, rgb: [0; 3], flags: 0 };
+
     /// Exponent of 1/w, 0 - 31.
     #[inline(always)]
     pub fn exponent(&self) -> u32 {

@@ -44,9 +44,12 @@ struct Once(UnsafeCell<Memory>);
 // SAFETY: `main` alone takes it, once, on the only core.
 unsafe impl Sync for Once {}
 
-// SAFETY: integers alone, for each of which 0 is a value; a `Primitive` has no other constant.
-static MEMORY: Once =
-    Once(UnsafeCell::new(unsafe { core::mem::MaybeUninit::zeroed().assume_init() }));
+static MEMORY: Once = Once(UnsafeCell::new(Memory {
+    vertices: [Vertex::EMPTY; 400],
+    primitives: [Primitive::EMPTY; 800],
+    colour: [0; WIDTH as usize * LINES],
+    depth: [0; WIDTH as usize * LINES],
+}));
 
 /// A delay by the system timer.
 struct Timer;

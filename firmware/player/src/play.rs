@@ -93,12 +93,20 @@ impl<const V: usize, const T: usize, const X: usize, const B: usize> Storage<V, 
     pub const BYTES: usize = size_of::<Self>() - 2 * X;
 
     /// Zeros, as a static's initial value: it takes no room in flash and never lies on a stack.
-    #[allow(unsafe_code)]
     #[allow(clippy::new_without_default)] // a default would be built on the stack
     pub const fn new() -> Self {
-        // SAFETY: every field is made of integers alone, `Vertex` and `Primitive` too, and 0 is a value of each. A `Primitive`
-        // can't be named here in another way: its fields are the pipeline's own, and its default is no constant.
-        unsafe { core::mem::MaybeUninit::zeroed().assume_init() }
+        Storage {
+            millionths: [[0; 3]; V],
+            positions: [[0; 3]; V],
+            normals: [[0; 3]; V],
+            uvs: [[0; 2]; V],
+            triangles: [[[0; 3]; T]; 2],
+            face_normals: [[0; 3]; T],
+            vertices: [Vertex::EMPTY; V],
+            primitives: [Primitive::EMPTY; T],
+            bands: [[0; B]; 4],
+            texels: [0; X],
+        }
     }
 
     /// Lends it.

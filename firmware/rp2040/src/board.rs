@@ -49,9 +49,12 @@ struct Once(UnsafeCell<Memory>);
 // SAFETY: `main` alone takes it, once; the second core sleeps.
 unsafe impl Sync for Once {}
 
-// SAFETY: integers alone, for each of which 0 is a value; a `Primitive` has no other constant.
-static MEMORY: Once =
-    Once(UnsafeCell::new(unsafe { core::mem::MaybeUninit::zeroed().assume_init() }));
+static MEMORY: Once = Once(UnsafeCell::new(Memory {
+    vertices: [Vertex::EMPTY; MOST.0],
+    primitives: [Primitive::EMPTY; MOST.1],
+    colour: [0; WIDTH as usize * LINES],
+    depth: [0; WIDTH as usize * LINES],
+}));
 
 #[hal::entry]
 fn main() -> ! {

@@ -9,6 +9,7 @@ use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
 use crate::avx2::{EIGHT, Source, Triangles};
 use crate::clip::{self, Corner};
 use crate::depth;
+use crate::features;
 use crate::interpolate::Plane;
 use crate::light::Lighting;
 use crate::mesh::Normals;
@@ -44,7 +45,7 @@ impl<'a> Frame<'a> {
         let mut target = Target::<F> {
             rows: rows.start as i32..rows.end as i32,
             width,
-            dither: self.settings.dither,
+            dither: features::DITHER && self.settings.dither,
             traversal: self.settings.traversal,
             colour: &mut colour[..needed.0],
             depth: &mut depth[..needed.1],
@@ -183,8 +184,11 @@ impl<'a> Frame<'a> {
     ) {
         let object = &self.scene.objects[primitive.object as usize];
         let state = &self.objects[primitive.object as usize];
-        let late_light = object.mode == Mode::Phong
-            || (object.mode == Mode::Gouraud && primitive.tag & BACK != 0);
+        let late_light = (features::PHONG && object.mode == Mode::Phong)
+            || (features::GOURAUD
+                && features::TWO_SIDED
+                && object.mode == Mode::Gouraud
+                && primitive.tag & BACK != 0);
         if late_light && !matches!(lights, Some((owner, _)) if *owner == primitive.object) {
             *lights = Some((primitive.object, lighting(self.scene, object)));
         }
@@ -198,8 +202,9 @@ impl<'a> Frame<'a> {
         };
         match primitive.kind() {
             Kind::Triangle | Kind::Mask => painter.triangle(target),
-            Kind::Edge => painter.edge(target),
-            Kind::Point => painter.point(target),
+            Kind::Edge if features::LINES => painter.edge(target),
+            Kind::Point if features::POINTS => painter.point(target),
+            Kind::Edge | Kind::Point => {}
         }
     }
 }
@@ -303,12 +308,12 @@ impl<'f> Painter<'f> {
         target: &mut Target<F>,
     ) {
         let z = t.plane(v.map(|v| v.z));
-        if self.primitive.kind() == Kind::Mask {
+        if features::LINES && self.primitive.kind() == Kind::Mask {
             return target.mask(t, &z);
         }
         let smooth = matches!(self.object.mesh.normals, Normals::Vertex(_));
         match (self.object.mode, self.lighting) {
-            (Mode::Phong, Some(lighting)) => {
+            (Mode::Phong, Some(lighting)) if features::PHONG => {
                 let full = [0, 1, 2].map(|k| self.full(corners, k));
                 let (q, _) = common_inverse_w(v);
                 let shader = Phong {
@@ -320,11 +325,11 @@ impl<'f> Painter<'f> {
                 };
                 self.texture(t, v, &z, corners, shader, target);
             }
-            (Mode::Gouraud, Some(_)) if smooth => {
+            (Mode::Gouraud, Some(_)) if smooth && features::GOURAUD && features::TWO_SIDED => {
                 let shader = Gouraud::new(t, [0, 1, 2].map(|k| self.full(corners, k).rgb));
                 self.texture(t, v, &z, corners, shader, target);
             }
-            (Mode::Gouraud, None) if smooth => {
+            (Mode::Gouraud, None) if smooth && features::GOURAUD => {
                 self.texture(t, v, &z, corners, Gouraud::new(t, v.map(|v| v.rgb)), target);
             }
             _ => self.texture(t, v, &z, corners, Flat(self.primitive.rgb), target),
@@ -351,10 +356,11 @@ impl<'f> Painter<'f> {
                     Some(sampler) => {
                         self.fog(t, v, z, Textured { inner, sampler, setup, q }, target);
                     }
-                    None => {
+                    None if features::ALL_TEXTURES => {
                         let sampler = General;
                         self.fog(t, v, z, Textured { inner, sampler, setup, q }, target);
                     }
+                    None => {}
                 }
             }
             None => self.fog(t, v, z, shader, target),
@@ -374,14 +380,14 @@ impl<'f> Painter<'f> {
         target: &mut Target<F>,
     ) {
         match &self.frame.fog {
-            Some(fog) => {
+            Some(fog) if features::FOG => {
                 let (q, exponent) = common_inverse_w(v);
                 let q = t.plane(q.map(|q| q << 8));
                 // Clip units: w = 2^(54 - exponent) / q; world units: 2^(m - 32) times that.
                 let shift = exponent as i32 + 9 - self.state.clip.exponent;
                 target.fill(t, z, &Fogged { inner: shader, fog, q, shift });
             }
-            None => target.fill(t, z, &shader),
+            _ => target.fill(t, z, &shader),
         }
     }
 
@@ -416,7 +422,7 @@ impl<'f> Painter<'f> {
         }
         let hidden = self.object.mode == Mode::Hidden;
         let clip = target.clip_rect();
-        if self.object.smooth_lines {
+        if features::SMOOTH_LINES && self.object.smooth_lines {
             let [a, b] = ends.map(|v| SmoothEnd { x: v.x, y: v.y, z: v.z, rgb: v.rgb });
             walk_smooth(&a, &b, clip, |x, y, z, rgb, weight| {
                 target.mix(x, y, hidden.then_some(z), rgb, weight)

@@ -131,8 +131,8 @@ const BACK: u8 = 1 << 3;
 impl Primitive {
     /// A triangle that is neither clipped nor seen from behind.
     const PLAIN: u8 = 0;
-    /// In place of none.
-    const EMPTY: Primitive =
+    /// What memory for primitives may begin as, in a static too.
+    pub const EMPTY: Primitive =
         Primitive { index: 0, top: 0, bottom: 0, object: 0, rgb: [0; 3], tag: Primitive::PLAIN };
 
     /// Whether it may touch some rows.
@@ -258,6 +258,13 @@ pub enum PrepareError {
     Lights(usize),
     /// More than 65,536 objects.
     Objects(usize),
+    /// The scene asks for something that was left out when the library was compiled.
+    Feature {
+        /// Index of the object that asks for it; `None` when the scene or the settings do.
+        object: Option<usize>,
+        /// Cargo's feature that brings it.
+        feature: &'static str,
+    },
 }
 
 impl fmt::Display for PrepareError {
@@ -294,6 +301,13 @@ impl fmt::Display for PrepareError {
                 write!(f, "{n} lights; at most {} are possible", crate::light::MAX_LIGHTS)
             }
             PrepareError::Objects(n) => write!(f, "{n} objects; at most 65536 are possible"),
+            PrepareError::Feature { object, feature } => {
+                match object {
+                    Some(object) => write!(f, "object {object}")?,
+                    None => f.write_str("the scene")?,
+                }
+                write!(f, " needs what was left out: compile scanout with its feature `{feature}`")
+            }
         }
     }
 }

@@ -9,12 +9,14 @@ use super::{Stats, Store, Traversal, UNSEEN};
 use crate::avx2::{Avx2, EIGHT, Seen};
 use crate::clip::{self, Corner};
 use crate::cull::{Facing, facing, facing_in_clip_space, sphere_outside};
-use crate::light::{Lighting, MAX_LIGHTS};
+use crate::features;
+use crate::light::{Lighting, MAX_LIGHTS, plainly_lit};
 use crate::math::normalise_q14;
 use crate::mesh::{Mesh, Normals};
-use crate::scene::{Background, Mode, Object, Scene};
+use crate::scene::{Background, Light, Mode, Object, Scene};
 use crate::setup::{first_pixel, signed_area};
 use crate::shade::{FogWeights, modulate};
+use crate::texture::Repeat565;
 use crate::transform::{CLIP, ClipMatrix, FAR, NEAR, Vertex, Viewport};
 
 /// The most primitives that an object can make.
@@ -125,7 +127,7 @@ impl<'a> Frame<'a> {
             vertices: &vertices[..vertices_needed],
             primitives: &primitives[..len],
             objects: &objects[..scene.objects.len()],
-            fog: scene.fog.as_ref().map(FogWeights::new),
+            fog: scene.fog.as_ref().filter(|_| features::FOG).map(FogWeights::new),
             stats,
         })
     }
@@ -172,6 +174,56 @@ fn check(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
         }
         if let Some(texture) = object.material.texture {
             texture.check().map_err(|error| PrepareError::Texture { object: index, error })?;
+        }
+    }
+    compiled_in(scene, settings)
+}
+
+/// Checks that nothing is asked for that the features leave out.
+fn compiled_in(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
+    let refuse = |object, feature| Err(PrepareError::Feature { object, feature });
+    if !features::DITHER && settings.dither {
+        return refuse(None, "dither");
+    }
+    if !features::FOG && scene.fog.is_some() {
+        return refuse(None, "fog");
+    }
+    if !features::BACKGROUND_IMAGES && matches!(scene.background, Background::Image(_)) {
+        return refuse(None, "background-images");
+    }
+    if !features::ALL_LIGHTS && !scene.lights.iter().all(Light::is_plain) {
+        return refuse(None, "all-lights");
+    }
+    for (index, object) in scene.objects.iter().enumerate() {
+        let mode = match object.mode {
+            Mode::Points if !features::POINTS => Some("points"),
+            Mode::Wire | Mode::Hidden if !features::LINES => Some("lines"),
+            Mode::Wire | Mode::Hidden if !features::SMOOTH_LINES && object.smooth_lines => {
+                Some("smooth-lines")
+            }
+            Mode::Gouraud if !features::GOURAUD => Some("gouraud"),
+            Mode::Phong if !features::PHONG => Some("phong"),
+            _ => None,
+        };
+        let filled = matches!(object.mode, Mode::Flat | Mode::Gouraud | Mode::Phong);
+        let (material, mesh) = (object.material, object.mesh);
+        let feature = mode.or(if !features::TWO_SIDED && material.two_sided {
+            Some("two-sided")
+        } else if !features::VERTEX_COLOURS && !mesh.colours.is_empty() {
+            Some("vertex-colours")
+        } else if !features::ALL_LIGHTS && filled && !plainly_lit(scene, object) {
+            Some("all-lights")
+        } else if !features::ALL_TEXTURES
+            && filled
+            && !mesh.uv_triangles.is_empty()
+            && material.texture.is_some_and(|texture| Repeat565::new(texture).is_none())
+        {
+            Some("all-textures")
+        } else {
+            None
+        });
+        if let Some(feature) = feature {
+            return refuse(Some(index), feature);
         }
     }
     Ok(())
@@ -223,9 +275,9 @@ impl ObjectPass<'_> {
         let lighting = lighting(self.scene, self.object);
         self.transform(vertices);
         match self.object.mode {
-            Mode::Points => self.points(vertices, list),
-            Mode::Wire => self.edges(vertices, list)?,
-            Mode::Hidden => {
+            Mode::Points if features::POINTS => self.points(vertices, list),
+            Mode::Wire if features::LINES => self.edges(vertices, list)?,
+            Mode::Hidden if features::LINES => {
                 self.triangles(vertices, &lighting, Kind::Mask, list)?;
                 self.edges(vertices, list)?;
             }
@@ -250,15 +302,23 @@ impl ObjectPass<'_> {
                 *vertex = Vertex { rgb, ..self.viewport.project(&self.clip.apply(position)) };
             }
         }
+        if !features::VERTEX_COLOURS {
+            return;
+        }
         for (vertex, &colour) in vertices.iter_mut().zip(mesh.colours) {
             vertex.rgb = modulate(colour, self.object.material.colour);
         }
     }
 
+    /// Back faces are dropped.
+    fn one_sided(&self) -> bool {
+        !features::TWO_SIDED || !self.object.material.two_sided
+    }
+
     /// The normals by which vertices are lit, where they are.
     fn vertex_normals(&self) -> Option<&[[i16; 3]]> {
         match (self.object.mode, self.object.mesh.normals) {
-            (Mode::Gouraud, Normals::Vertex(normals)) => Some(normals),
+            (Mode::Gouraud, Normals::Vertex(normals)) if features::GOURAUD => Some(normals),
             _ => None,
         }
     }
@@ -288,7 +348,7 @@ impl ObjectPass<'_> {
         let Some(avx2) = self.avx2 else {
             return self.one_by_one(0..triangles.len(), vertices, lighting, kind, list);
         };
-        let one_sided = !self.object.material.two_sided;
+        let one_sided = self.one_sided();
         let lit_later = self.vertex_normals().is_some();
         let size = [self.settings.width as i32, self.settings.height as i32];
         let (groups, _) = triangles.as_chunks::<EIGHT>();
@@ -329,7 +389,7 @@ impl ObjectPass<'_> {
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
-        let one_sided = !self.object.material.two_sided;
+        let one_sided = self.one_sided();
         let lit_later = self.vertex_normals().is_some();
         let mut back_facing = 0;
         for (i, &triangle) in range.clone().zip(&self.object.mesh.triangles[range]) {
@@ -384,7 +444,7 @@ impl ObjectPass<'_> {
         }
         let corners = triangle.map(|c| self.clip.apply(mesh.positions[c as usize]));
         let facing = facing_in_clip_space(&corners);
-        if facing == Facing::Edge || (facing == Facing::Back && !self.object.material.two_sided) {
+        if facing == Facing::Edge || (facing == Facing::Back && self.one_sided()) {
             list.stats.back_facing += 1;
             return;
         }
@@ -425,7 +485,7 @@ impl ObjectPass<'_> {
         };
         let normal = if back { normal.map(|v| v.saturating_neg()) } else { normal };
         let mut colour = self.object.material.colour;
-        if !mesh.colours.is_empty() {
+        if features::VERTEX_COLOURS && !mesh.colours.is_empty() {
             let colours = triangle.map(|c| surface_colour(self.object, c));
             colour = [0, 1, 2].map(|k| {
                 let sum: u32 = colours.iter().map(|c| c[k] as u32).sum();

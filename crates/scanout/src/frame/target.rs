@@ -6,6 +6,7 @@ use super::Traversal;
 use super::fragment::Shader;
 use crate::avx2::{Avx2, EIGHT, Pixels, Plain, STRIP};
 use crate::depth;
+use crate::features;
 use crate::interpolate::Plane;
 use crate::lanes::{self, LANES, U16x8, U32x8};
 use crate::output::{PixelFormat, Rgb565};
@@ -87,7 +88,7 @@ impl<F: PixelFormat> Target<'_, F> {
 
     #[inline(always)]
     fn encode(&self, rgb: [u8; 3], x: i32, y: i32) -> F::Pixel {
-        if self.dither { F::encode_dithered(rgb, x, y) } else { F::encode(rgb) }
+        if features::DITHER && self.dither { F::encode_dithered(rgb, x, y) } else { F::encode(rgb) }
     }
 
     pub(super) fn clip_rect(&self) -> ClipRect {
@@ -115,11 +116,14 @@ impl<F: PixelFormat> Target<'_, F> {
         if let (Background::Colour(rgb), Some((avx2, pixels))) = (background, self.pixels()) {
             return avx2.fill(pixels.colours, Rgb565::encode(*rgb));
         }
-        let (width, dither) = (self.width, self.dither);
+        let (width, dither) = (self.width, features::DITHER && self.dither);
         for y in self.rows.clone() {
             let (row, _) = self.row(y);
             if let (Background::Colour(rgb), false) = (background, dither) {
                 F::fill(row, width, F::encode(*rgb));
+                continue;
+            }
+            if !features::BACKGROUND_IMAGES && !dither {
                 continue;
             }
             // The bits of the last word that are no pixels.
@@ -129,7 +133,10 @@ impl<F: PixelFormat> Target<'_, F> {
             for x in 0..width {
                 let rgb = match background {
                     Background::Colour(rgb) => *rgb,
-                    Background::Image(pixels) => pixels[y as usize * width + x],
+                    Background::Image(pixels) if features::BACKGROUND_IMAGES => {
+                        pixels[y as usize * width + x]
+                    }
+                    Background::Image(_) => [0; 3],
                 };
                 let pixel =
                     if dither { F::encode_dithered(rgb, x as i32, y) } else { F::encode(rgb) };
@@ -143,14 +150,16 @@ impl<F: PixelFormat> Target<'_, F> {
     fn runs(&mut self, t: &Triangle, mut batch: impl FnMut(&mut Self, &[Run])) {
         let (rows, width) = (self.rows.clone(), self.width as i32);
         match self.traversal {
-            Traversal::Tiles => tiles(t, rows, width, &mut |runs| batch(self, runs)),
+            Traversal::Tiles if features::TILES => {
+                tiles(t, rows, width, &mut |runs| batch(self, runs))
+            }
             _ => spans(t, rows, width, &mut |runs| batch(self, runs)),
         }
     }
 
     /// Depth, shade, output: a triangle's fragments.
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
-        if self.dither {
+        if features::DITHER && self.dither {
             self.runs(t, |target, runs| target.fill_runs::<S, true>(z, shader, runs));
         } else if lanes::AVAILABLE
             && self.traversal != Traversal::Pixels
