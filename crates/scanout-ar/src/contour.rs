@@ -43,22 +43,26 @@ pub fn follow(
     let row = words(width);
     let passed = &mut passed[..row * height];
     passed.fill(0);
-    let area = Dark { bits: &bits[..row * height], row };
+    let mut area = Dark { bits: &bits[..row * height], passed, row };
     for y in 1..height.saturating_sub(1) {
         let mut carry = 0;
-        for word in 0..row {
-            let dark = bits[y * row + word];
+        for word in y * row..(y + 1) * row {
+            let dark = area.bits[word];
+            if dark == 0 {
+                carry = 0;
+                continue;
+            }
             // Dark with light on the left.
             let starts = dark & !(dark << 1 | carry);
             carry = dark >> 31;
             // Following one outline passes others of this word.
             loop {
-                let left = starts & !passed[y * row + word];
+                let left = starts & !area.passed[word];
                 if left == 0 {
                     break;
                 }
-                let x = word * 32 + left.trailing_zeros() as usize;
-                let outline = area.outline(x, y, passed, points);
+                let x = (word - y * row) * 32 + left.trailing_zeros() as usize;
+                let outline = area.outline(x, y, points);
                 if outline.area > 0 {
                     each(outline, &points[..outline.length.min(points.len())]);
                 }
@@ -69,51 +73,85 @@ pub fn follow(
 
 struct Dark<'a> {
     bits: &'a [u32],
+    passed: &'a mut [u32],
+    /// Words in a row.
     row: usize,
 }
 
 impl Dark<'_> {
-    fn at(&self, x: i32, y: i32) -> bool {
-        let (x, y) = (x as usize, y as usize);
-        self.bits[y * self.row + x / 32] >> (x % 32) & 1 == 1
-    }
-
     /// The outline through the left crack of pixel (x, y), from its lower end.
-    fn outline(&self, x: usize, y: usize, passed: &mut [u32], points: &mut [Point]) -> Outline {
-        // Directions clockwise from up: the step, then the pixels ahead on the left and on the right.
-        const STEP: [(i32, i32); 4] = [(0, -1), (1, 0), (0, 1), (-1, 0)];
-        const LEFT: [(i32, i32); 4] = [(-1, -1), (0, -1), (0, 0), (-1, 0)];
-        const RIGHT: [(i32, i32); 4] = [(0, -1), (0, 0), (-1, 0), (-1, -1)];
-        let start = (x as i32, y as i32 + 1);
-        let (mut at, mut direction) = (start, 0);
-        let (mut length, mut area) = (0, 0);
+    fn outline(&mut self, x: usize, y: usize, points: &mut [Point]) -> Outline {
+        let row = self.row * 32;
+        // The number of the pixel right and below of where the walk stands; those of the three others around are known from it.
+        let start = (y + 1) * row + x;
+        let mut here = start;
+        let (mut x, mut y) = (x as i32, y as i32 + 1);
+        // At most 2 to the 28th in the end, whatever it is on the way.
+        let (mut length, mut area) = (0, 0i32);
+        let mut direction = Direction::Up;
         loop {
             if let Some(point) = points.get_mut(length) {
-                *point = [at.0 as i16, at.1 as i16];
+                *point = [x as i16, y as i16];
             }
             length += 1;
             match direction {
-                0 => {
-                    let (x, y) = (at.0 as usize, at.1 as usize - 1);
-                    passed[y * self.row + x / 32] |= 1 << (x % 32);
-                    area -= i64::from(at.0);
+                Direction::Up => {
+                    here -= row;
+                    self.passed[here / 32] |= 1 << (here % 32);
+                    area = area.wrapping_sub(x);
+                    y -= 1;
+                    if self.at(here - row - 1) {
+                        direction = Direction::Left;
+                    } else if !self.at(here - row) {
+                        direction = Direction::Right;
+                    }
                 }
-                2 => area += i64::from(at.0),
-                _ => {}
+                Direction::Right => {
+                    here += 1;
+                    x += 1;
+                    if self.at(here - row) {
+                        direction = Direction::Up;
+                    } else if !self.at(here) {
+                        direction = Direction::Down;
+                    }
+                }
+                Direction::Down => {
+                    here += row;
+                    area = area.wrapping_add(x);
+                    y += 1;
+                    if self.at(here) {
+                        direction = Direction::Right;
+                    } else if !self.at(here - 1) {
+                        direction = Direction::Left;
+                    }
+                }
+                Direction::Left => {
+                    here -= 1;
+                    x -= 1;
+                    if self.at(here - 1) {
+                        direction = Direction::Down;
+                    } else if !self.at(here - row - 1) {
+                        direction = Direction::Up;
+                    }
+                }
             }
-            at = (at.0 + STEP[direction].0, at.1 + STEP[direction].1);
-            let ahead =
-                |side: [(i32, i32); 4]| self.at(at.0 + side[direction].0, at.1 + side[direction].1);
-            if ahead(LEFT) {
-                direction = (direction + 3) % 4;
-            } else if !ahead(RIGHT) {
-                direction = (direction + 1) % 4;
-            }
-            if at == start && direction == 0 {
-                return Outline { length, area };
+            if here == start && direction == Direction::Up {
+                return Outline { length, area: area.into() };
             }
         }
     }
+
+    fn at(&self, pixel: usize) -> bool {
+        self.bits[pixel / 32] >> (pixel % 32) & 1 == 1
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Direction {
+    Up,
+    Right,
+    Down,
+    Left,
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! The detector: a grey picture to markers.
 //!
 //! ```text
-//!  picture ---------> 1/2 ---------> 1/4               integers: threshold, contours
-//!     |                |              |
-//!  threshold        threshold     threshold            one window's size on every level: noise and blur that hide a marker's
+//!  picture ---------> 1/2 ---------> 1/4 -------> 1/8  integers: threshold, contours
+//!     |   .------------'|  .----------'| .---------'
+//!  threshold        threshold     threshold            each from the next level's means: noise and blur that hide a marker's
 //!     |                |              |                cells in the picture are averaged away in the halves
 //!  contours -> quadrilaterals -> edges -> decode       floating point, only for the few quadrilaterals
 //!                                           |
@@ -20,7 +20,7 @@ use crate::homography::Homography;
 use crate::image::{GreyImage, halve};
 use crate::pattern;
 use crate::quad::{Corners, from_outline, is_plausible, is_square_in_perspective, twice_area};
-use crate::threshold::{MOST_MARGIN, MOST_RADIUS, adaptive, columns, margin, words};
+use crate::threshold::{adaptive, columns, margin, words};
 use libm::sqrt;
 
 /// A marker that was found.
@@ -53,9 +53,7 @@ impl Default for Detection {
 pub struct Parameters {
     /// Levels of the pyramid: 1 the picture only, 3 down to a quarter. At most 3.
     pub levels: usize,
-    /// Half the threshold's window on each level, in its pixels, 1 - 7.
-    pub radius: [usize; 3],
-    /// How much darker than its surroundings black must be, grey levels up to 32; by the picture's noise when `None`.
+    /// How much darker than its surroundings black must be, grey levels; by the picture's noise when `None`.
     pub margin: Option<u8>,
     /// Shortest side of a marker, pixels of its level.
     pub least_side: usize,
@@ -70,15 +68,7 @@ pub struct Parameters {
 
 impl Default for Parameters {
     fn default() -> Self {
-        Self {
-            levels: 3,
-            radius: [4, 7, 7],
-            margin: None,
-            least_side: 8,
-            wrong: 3,
-            agreement: 0.8,
-            fit: (0.7, 0.85),
-        }
+        Self { levels: 3, margin: None, least_side: 8, wrong: 3, agreement: 0.8, fit: (0.7, 0.85) }
     }
 }
 
@@ -116,7 +106,9 @@ impl Needed {
         Self {
             sums: columns(width),
             bits: words(width) * height,
-            halves: (width / 2) * (height / 2) + (width / 4) * (height / 4),
+            halves: (width / 2) * (height / 2)
+                + (width / 4) * (height / 4)
+                + (width / 8) * (height / 8),
             points: 3 * (width + height),
         }
     }
@@ -178,21 +170,25 @@ pub fn detect(
     if !enough {
         return Err(DetectError::Memory(needed));
     }
-    let (half, quarter) = memory.halves[..needed.halves].split_at_mut((width / 2) * (height / 2));
-    halve(image, half);
-    let empty = GreyImage::new(0, 0, 0, &[]).unwrap_or(*image);
-    let half = GreyImage::new(width / 2, height / 2, width / 2, half).unwrap_or(empty);
-    halve(&half, quarter);
-    let quarter = GreyImage::new(width / 4, height / 4, width / 4, quarter).unwrap_or(empty);
-    let levels = [*image, half, quarter];
+    // Each level's threshold comes from the next one.
+    let mut halves = &mut memory.halves[..needed.halves];
+    let mut levels = [*image; 4];
+    for level in 1..4 {
+        let (width, height) = (width >> level, height >> level);
+        let (half, rest) = halves.split_at_mut(width * height);
+        halve(&levels[level - 1], half);
+        levels[level] = GreyImage::new(width, height, width, half).unwrap_or(*image);
+        halves = rest;
+    }
     let mut search = Search { levels, dictionaries, parameters, found, count: 0 };
     for level in (0..parameters.levels.clamp(1, 3)).rev() {
         let image = levels[level];
         let size = (image.width(), image.height());
         let bits = &mut memory.bits[..words(size.0) * size.1];
-        let radius = parameters.radius[level].clamp(1, MOST_RADIUS);
-        let margin = parameters.margin.unwrap_or_else(|| margin(&image)).min(MOST_MARGIN);
-        adaptive(&image, radius, margin, memory.sums, bits);
+        let margin = parameters.margin.unwrap_or_else(|| margin(&image));
+        // A window of 10 pixels finds the outlines of small markers, one of 18 those of blurred ones.
+        let adaptive = if level == 0 { adaptive::<2> } else { adaptive::<4> };
+        adaptive(&image, &levels[level + 1], margin, memory.sums, bits);
         follow(bits, size, memory.passed, memory.points, |outline, points| {
             if is_plausible(&outline, parameters.least_side)
                 && let Some(corners) = from_outline(&outline, points)
@@ -205,7 +201,8 @@ pub fn detect(
 }
 
 struct Search<'a> {
-    levels: [GreyImage<'a>; 3],
+    /// The picture and its halves.
+    levels: [GreyImage<'a>; 4],
     dictionaries: &'a [Dictionary],
     parameters: &'a Parameters,
     found: &'a mut [Detection],
@@ -258,24 +255,20 @@ impl Search<'_> {
 
     /// The best reading in any dictionary, and its turns.
     fn decode(&self, level: usize, corners: &Corners) -> Option<((Detection, u8), Reading)> {
-        let map = Homography::from_unit_square(corners)?;
         let mut best: Option<((Detection, u8), Reading)> = None;
-        let mut read: Option<(u8, Reading)> = None;
+        let mut read: Option<(u8, Option<Reading>)> = None;
         for (index, dictionary) in self.dictionaries.iter().enumerate() {
             let side = dictionary.side;
             // Dictionaries of one size share a reading.
             let reading = match read {
                 Some((known, reading)) if known == side => reading,
                 _ => {
-                    let limits = Limits::default();
-                    let Some(new) = decode::read(&self.levels[level], &map, side.into(), &limits)
-                    else {
-                        continue;
-                    };
+                    let new = self.read(level, corners, side);
                     read = Some((side, new));
                     new
                 }
             };
+            let Some(reading) = reading else { continue };
             let tolerated = self.parameters.wrong.min(dictionary.correctable * 3 / 5);
             let Some((found, agreement)) = reading.find(dictionary, tolerated) else { continue };
             let better = best.as_ref().is_none_or(|best| agreement > best.0.0.agreement);
@@ -291,6 +284,18 @@ impl Search<'_> {
             }
         }
         best
+    }
+
+    /// Reads cells where a sample is a good part of one: on a coarser level where they are large.
+    fn read(&self, mut level: usize, corners: &Corners, side: u8) -> Option<Reading> {
+        let mut cell = shortest_side(corners) / f64::from(side + 2);
+        let mut corners = *corners;
+        while cell >= LARGE && level + 1 < self.levels.len() {
+            (level, cell) = (level + 1, cell / 2.0);
+            corners = corners.map(|corner| corner.map(|x| x / 2.0));
+        }
+        let map = Homography::from_unit_square(&corners)?;
+        decode::read(&self.levels[level], &map, side.into(), &Limits::default())
     }
 
     /// Is this the outline of a marker that was found already?
@@ -313,6 +318,17 @@ impl Search<'_> {
             self.count += 1;
         }
     }
+}
+
+/// Cells of as many pixels are read on the next coarser level.
+const LARGE: f64 = 6.0;
+
+fn shortest_side(corners: &Corners) -> f64 {
+    let squared = (0..4).map(|i| {
+        let (a, b) = (corners[i], corners[(i + 1) % 4]);
+        (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])
+    });
+    sqrt(squared.fold(f64::INFINITY, f64::min))
 }
 
 /// Do two quadrilaterals cover nearly the same place: middles closer than a quarter of a side, areas within a factor of 2?
@@ -395,7 +411,7 @@ mod tests {
     #[test]
     fn memory_is_stated_and_too_little_is_told() {
         let needed = Needed::for_size(320, 240);
-        assert_eq!(needed.bytes(), 52_592);
+        assert_eq!(needed.bytes(), 51_468);
         let image = GreyImage::new(320, 240, 320, &[0; 320 * 240]).unwrap();
         let mut memory = Memory {
             sums: &mut [0; 1],
@@ -407,6 +423,6 @@ mod tests {
         let all = [Dictionary::ARUCO_4X4_50];
         let got = detect(&image, &all, &Parameters::default(), &mut memory, &mut []);
         assert_eq!(got, Err(DetectError::Memory(needed)));
-        assert!(std::format!("{}", got.unwrap_err()).contains("52592 bytes"));
+        assert!(std::format!("{}", got.unwrap_err()).contains("51468 bytes"));
     }
 }

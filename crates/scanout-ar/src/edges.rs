@@ -36,20 +36,20 @@ pub fn refine(image: &GreyImage, corners: &Corners) -> Option<Corners> {
             // Corners are rounded off by blur.
             let along = 0.1 + 0.8 * (i as f64 + 0.5) / count as f64;
             let (x, y) = (a[0] + dx * along, a[1] + dy * along);
-            let at = |t: f64| image.sample(x + outward[0] * t, y + outward[1] * t);
-            let mut before = at(f64::from(-REACH) * step);
+            let step_out = outward.map(|axis| axis * step);
+            let inmost = f64::from(REACH);
+            let start = [x - step_out[0] * inmost, y - step_out[1] * inmost];
+            let values = image.line::<{ 2 * REACH as usize + 1 }>(start, step_out);
             let (mut weight, mut moment) = (0.0, 0.0);
-            for i in -REACH..REACH {
-                let next = at(f64::from(i + 1) * step);
-                let rise = next - before;
-                before = next;
+            for (i, pair) in values.windows(2).enumerate() {
+                let rise = f64::from(pair[1] - pair[0]);
                 if rise > 0.0 {
                     weight += rise * rise;
-                    moment += rise * rise * (f64::from(i) + 0.5) * step;
+                    moment += rise * rise * i as f64;
                 }
             }
             if weight > 4.0 {
-                let t = moment / weight;
+                let t = (moment / weight + 0.5 - inmost) * step;
                 let point = [x + outward[0] * t - origin[0], y + outward[1] * t - origin[1]];
                 sums.add(point, sqrt(weight));
             }

@@ -1,6 +1,6 @@
 //! Straight lines through many points: total least squares, weighted.
 
-use libm::{atan2, cos, sin, sqrt};
+use libm::sqrt;
 
 /// A line `n . p = c` with a unit normal n.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,10 +42,17 @@ impl LineSums {
         let xx = self.xx / self.weight - mx * mx;
         let xy = self.xy / self.weight - mx * my;
         let yy = self.yy / self.weight - my * my;
-        // The direction of the greatest extent turns by half of this angle from the x axis; the normal is at right angles.
-        let half = atan2(2.0 * xy, xx - yy) / 2.0;
-        let normal = [-sin(half), cos(half)];
+        // The direction of the greatest extent turns by half the angle of (xx - yy, 2 xy) from the x axis; the normal is at right angles.
         let difference = sqrt((xx - yy) * (xx - yy) + 4.0 * xy * xy);
+        let normal = if difference == 0.0 {
+            [0.0, 1.0]
+        } else if xx > yy {
+            let cosine = sqrt((1.0 + (xx - yy) / difference) / 2.0);
+            [-xy / (difference * cosine), cosine]
+        } else {
+            let sine = sqrt((1.0 + (yy - xx) / difference) / 2.0);
+            [-sine, xy / (difference * sine)]
+        };
         let line = Line { normal, offset: normal[0] * mx + normal[1] * my };
         Some((line, ((xx + yy - difference) / 2.0).max(0.0)))
     }

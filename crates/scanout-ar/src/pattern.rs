@@ -21,10 +21,12 @@ use crate::quad::{Corners, is_convex, twice_area};
 use crate::solve::solve;
 use libm::sqrt;
 
-/// Samples of a profile.
+/// Samples of a profile, the middle one on the edge.
 const SAMPLES: usize = 7;
 /// Rounds at most.
 const ROUNDS: usize = 5;
+/// Cells in a row at most, the border included.
+const MOST_CELLS: usize = 8;
 
 /// What was fitted.
 #[derive(Clone, Copy, Debug)]
@@ -40,18 +42,6 @@ pub struct Fitted {
 /// Black and white, each a plane over the unit square: `[black, across, down, white, across, down]`.
 type Light = [f64; 6];
 
-struct Fit {
-    light: Light,
-    /// Samples' normal equations of the light.
-    light_sums: ([[f64; 6]; 6], [f64; 6]),
-    map_sums: ([[f64; 8]; 8], [f64; 8]),
-    blur_sums: (f64, f64),
-    /// Sum of the distances, of the weights, and how many.
-    off: (f64, f64),
-    /// Squared residuals and squared contrast.
-    misfit: (f64, f64),
-}
-
 /// Fits the marker `code` of a dictionary to the picture. `corners` are those of the black border, the marker's own top left
 /// first, clockwise, at most about a pixel and a half off; `black` and `white` its levels. `None` when it doesn't settle.
 pub fn refine(
@@ -61,10 +51,10 @@ pub fn refine(
     corners: &Corners,
     (black, white): (f64, f64),
 ) -> Option<Fitted> {
-    let cells = usize::from(dictionary.side) + 2;
+    let edges = Edges::new(dictionary, code);
     let size = sqrt(twice_area(corners) / 2.0);
     let centre = [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0);
-    let cell = size / cells as f64;
+    let cell = size / edges.cells as f64;
     // Pixels relative to the marker, so that the equations are well scaled.
     let relative = corners.map(|[x, y]| [(x - centre[0]) / size, (y - centre[1]) / size]);
     let mut map = Homography::from_unit_square(&relative)?;
@@ -74,62 +64,35 @@ pub fn refine(
     let mut agreement = 0.0;
     let per_edge = ((cell / 6.0) as usize).clamp(1, 2);
     for round in 0..ROUNDS {
-        let mut fit = Fit {
-            light,
-            light_sums: Default::default(),
-            map_sums: Default::default(),
-            blur_sums: (0.0, 0.0),
-            off: (0.0, 0.0),
-            misfit: (0.0, 0.0),
-        };
-        let view = View { image, map: &map, centre, size, cells: cells as f64, blur, usual };
-        for across in [false, true] {
-            for line in 0..=cells {
-                for k in 0..cells {
-                    let white = |i: isize| {
-                        // Paper around the marker.
-                        let inside = (0..cells as isize).contains(&i);
-                        let (column, row) = if across { (k, i as usize) } else { (i as usize, k) };
-                        !inside || dictionary.is_white(code, column, row)
-                    };
-                    let i = line as isize;
-                    if white(i - 1) == white(i) {
-                        continue;
-                    }
-                    let row = core::array::from_fn(|j| white(i + j as isize - 2));
-                    for step in 0..per_edge {
-                        let along = 0.25 + 0.5 * (step as f64 + 0.5) / per_edge as f64;
-                        view.profile(across, line as f64, k as f64 + along, row, &mut fit);
-                    }
-                }
+        let cells = edges.cells as f64;
+        let view = View { image, map: &map, centre, size, cells, blur, light, usual };
+        let mut sums = Sums::default();
+        edges.each(|across, line, k, row| {
+            for step in 0..per_edge {
+                let along = 0.25 + 0.5 * (step as f64 + 0.5) / per_edge as f64;
+                view.profile(across, line as f64, k as f64 + along, row, &mut sums);
             }
-        }
-        let moved = {
-            let (mut matrix, right) = fit.map_sums;
-            for (i, row) in matrix.iter_mut().enumerate() {
-                row[i] *= 1.0 + 1e-9;
-            }
-            let step = solve(matrix, right)?;
-            let before = corners_of(&map);
-            map.0.iter_mut().zip(step).for_each(|(entry, step)| *entry += step);
-            let after = corners_of(&map);
-            let far =
-                |i: usize| (after[i][0] - before[i][0]).abs() + (after[i][1] - before[i][1]).abs();
-            (0..4).map(far).fold(0.0, f64::max) * size
-        };
+        });
+        let step = sums.map_step()?;
+        let before = corners_of(&map);
+        map.0.iter_mut().zip(step).for_each(|(entry, step)| *entry += step);
+        let after = corners_of(&map);
+        let far =
+            |i: usize| (after[i][0] - before[i][0]).abs() + (after[i][1] - before[i][1]).abs();
+        let moved = (0..4).map(far).fold(0.0, f64::max) * size;
         if !moved.is_finite() || moved > 0.75 * size {
             return None;
         }
-        if let Some(solved) = solve(fit.light_sums.0, fit.light_sums.1) {
+        if let Some(solved) = sums.light() {
             light = solved;
         }
-        if fit.blur_sums.1 > 0.0 {
-            let change = (fit.blur_sums.0 / fit.blur_sums.1).clamp(-0.4 * blur, 0.4 * blur);
+        if sums.blur.1 > 0.0 {
+            let change = (sums.blur.0 / sums.blur.1).clamp(-0.4 * blur, 0.4 * blur);
             blur = (blur + change).clamp(0.35, (0.6 * cell).max(0.7));
         }
-        usual = (fit.off.0 / fit.off.1.max(1.0)).max(0.02);
-        agreement = 1.0 - fit.misfit.0 / fit.misfit.1.max(1e-9);
-        if round > 0 && moved < 0.02 {
+        usual = (sums.off.0 / sums.off.1.max(1.0)).max(0.02);
+        agreement = 1.0 - sums.misfit.0 / sums.misfit.1.max(1e-9);
+        if round > 0 && moved < 0.05 {
             break;
         }
     }
@@ -141,6 +104,45 @@ fn corners_of(map: &Homography) -> Corners {
     [map.map(0.0, 0.0), map.map(1.0, 0.0), map.map(1.0, 1.0), map.map(0.0, 1.0)]
 }
 
+/// The edges between black and white cells.
+struct Edges {
+    /// Cells in a row, the border included.
+    cells: usize,
+    /// For each row and for each column the white cells from the lowest bit on, with two cells of paper before and behind.
+    white: [[u16; MOST_CELLS]; 2],
+}
+
+impl Edges {
+    fn new(dictionary: &Dictionary, code: u64) -> Self {
+        let cells = usize::from(dictionary.side) + 2;
+        let paper = 3 | 3 << (cells + 2);
+        let mut white = [[paper; MOST_CELLS]; 2];
+        for (row, column) in (0..cells).flat_map(|row| (0..cells).map(move |column| (row, column)))
+        {
+            if dictionary.is_white(code, column, row) {
+                white[0][row] |= 4 << column;
+                white[1][column] |= 4 << row;
+            }
+        }
+        Self { cells, white }
+    }
+
+    /// Calls `each` for every edge: does it lie across the rows, before which cell of a row or column, in which, and which of the four
+    /// cells around it are white, two before it in the lower bits.
+    fn each(&self, mut each: impl FnMut(bool, usize, usize, u16)) {
+        for (across, white) in [false, true].into_iter().zip(&self.white) {
+            for line in 0..=self.cells {
+                for (k, white) in white[..self.cells].iter().enumerate() {
+                    let row = white >> line & 15;
+                    if (row >> 1 ^ row >> 2) & 1 == 1 {
+                        each(across, line, k, row);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// The state that profiles are compared with.
 struct View<'a> {
     image: &'a GreyImage<'a>,
@@ -149,6 +151,7 @@ struct View<'a> {
     size: f64,
     cells: f64,
     blur: f64,
+    light: Light,
     /// Usual distance of an edge from the model, pixels.
     usual: f64,
 }
@@ -156,7 +159,7 @@ struct View<'a> {
 impl View<'_> {
     /// Compares one profile across the edge `line`, at `along` on it (cells), with the model. `row` tells which of the four cells
     /// around the edge are white: two before it, two behind.
-    fn profile(&self, across: bool, line: f64, along: f64, row: [bool; 4], fit: &mut Fit) {
+    fn profile(&self, across: bool, line: f64, along: f64, row: u16, sums: &mut Sums) {
         let (u, v) = if across { (along, line) } else { (line, along) };
         let (u, v) = (u / self.cells, v / self.cells);
         let (at, d) = self.map.map_with_derivatives(u, v);
@@ -164,8 +167,8 @@ impl View<'_> {
         let scale = self.size / self.cells;
         let (over, tangent) = ([d[0] * scale, d[2] * scale], [d[1] * scale, d[3] * scale]);
         let (over, tangent) = if across { (tangent, over) } else { (over, tangent) };
-        let length = sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]).max(1e-9);
-        let mut normal = [tangent[1] / length, -tangent[0] / length];
+        let length = 1.0 / sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]).max(1e-9);
+        let mut normal = [tangent[1] * length, -tangent[0] * length];
         let mut cell = over[0] * normal[0] + over[1] * normal[1];
         if cell < 0.0 {
             (normal, cell) = ([-normal[0], -normal[1]], -cell);
@@ -176,105 +179,194 @@ impl View<'_> {
         // Half the profile: to the middles of the neighbouring cells, but not far beyond the blur.
         let reach = (0.6 * cell).min(2.5 * self.blur + 1.0);
         let [x, y] = [0, 1].map(|i| at[i] * self.size + self.centre[i]);
-        let contrast = self.contrast(&fit.light, u, v);
+        let [black, black_across, black_down, white, white_across, white_down] = self.light;
+        let black = black + black_across * u + black_down * v;
+        let contrast = white + white_across * u + white_down * v - black;
         if contrast < 1.0 {
             return;
         }
-        let sign = |white: bool| if white { 1.0 } else { 0.0 };
-        let jumps = [1, 2, 3].map(|i| sign(row[i]) - sign(row[i - 1]));
-        let mut g = [0.0; SAMPLES];
-        let mut r = [0.0; SAMPLES];
-        let (mut grg, mut ggg, mut blur) = (0.0, 0.0, (0.0, 0.0));
-        let black = fit.light[0] + fit.light[1] * u + fit.light[2] * v;
-        // An edge's width grows in pixels where the picture is stretched; the blur doesn't.
-        let width = 2.0 * self.blur;
-        let mut light = [([0.0; 6], 0.0); SAMPLES];
-        for (i, j) in (-3i32..=3).enumerate() {
-            let t = f64::from(j) * reach / 3.0;
-            let part = t / cell;
-            let value = self.image.sample(x + over[0] * part, y + over[1] * part);
-            let (mut p, mut dp, mut db) = (sign(row[0]), 0.0, 0.0);
-            for (edge, jump) in [-1.0, 0.0, 1.0].iter().zip(jumps) {
-                if jump != 0.0 {
-                    let z = (t - edge * cell) / width;
-                    let (integral, density) = spline(z);
-                    p += jump * integral;
-                    dp += jump * density / width;
-                    db -= jump * density * z / self.blur;
-                }
-            }
-            r[i] = value - (black + contrast * p);
-            g[i] = contrast * dp;
-            grg += r[i] * g[i];
-            ggg += g[i] * g[i];
-            blur.0 += r[i] * contrast * db;
-            blur.1 += contrast * contrast * db * db;
-            let q = 1.0 - p;
-            light[i] = ([q, q * u, q * v, p, p * u, p * v], value);
-        }
-        if ggg < 1e-6 {
+        let spacing = 2.0 * reach / (SAMPLES - 1) as f64;
+        let part = reach / cell;
+        let start = [x - over[0] * part, y - over[1] * part];
+        let part = spacing / cell;
+        let samples = self.image.line::<SAMPLES>(start, [over[0] * part, over[1] * part]);
+        let mut values = [0.0; LANES];
+        values[..SAMPLES].copy_from_slice(&samples);
+        let model = Profile::new(row, reach as f32, cell as f32, self.blur as f32);
+        let fitted = model.compare(&values, black as f32, contrast as f32);
+        if fitted.gg < 1e-6 {
             return;
         }
         // Moving the edge by `off` along the normal changes the profile by -g off.
-        let off = (-grg / ggg).clamp(-reach, reach);
-        let (mut misfit, mut energy) = (0.0, 0.0);
-        for i in 0..SAMPLES {
-            let rest = r[i] + g[i] * off;
-            misfit += rest * rest;
-            energy += contrast * contrast / 4.0;
-        }
-        fit.misfit.0 += misfit;
-        fit.misfit.1 += energy;
-        fit.off.0 += off.abs();
-        fit.off.1 += 1.0;
+        let off = (-fitted.rg / fitted.gg).clamp(-reach, reach);
+        let misfit = fitted.rr + off * (2.0 * fitted.rg + off * fitted.gg);
+        let energy = SAMPLES as f64 * contrast * contrast / 4.0;
+        sums.misfit.0 += misfit;
+        sums.misfit.1 += energy;
+        sums.off.0 += off.abs();
+        sums.off.1 += 1.0;
         let fits = 1.0 / (1.0 + misfit / (0.15 * energy));
         let near = if off.abs() > 2.5 * self.usual { 2.5 * self.usual / off.abs() } else { 1.0 };
         let robust = fits * fits * near;
-        let weight = robust * ggg / (contrast * contrast);
+        let weight = robust * fitted.gg / (contrast * contrast);
         let w = 1.0 / (self.map.0[6] * u + self.map.0[7] * v + 1.0);
         let (nx, ny) = (normal[0] * w, normal[1] * w);
         let depth = -(at[0] * nx + at[1] * ny);
-        let j = [nx * u, nx * v, nx, ny * u, ny * v, ny, depth * u, depth * v];
-        accumulate(&mut fit.map_sums, &j, off / self.size, weight);
-        for (basis, value) in light {
-            accumulate(&mut fit.light_sums, &basis, value, robust);
-        }
-        fit.blur_sums.0 += robust * blur.0;
-        fit.blur_sums.1 += robust * blur.1;
-    }
-
-    fn contrast(&self, light: &Light, u: f64, v: f64) -> f64 {
-        light[3] - light[0] + (light[4] - light[1]) * u + (light[5] - light[2]) * v
+        sums.add_edge([nx, ny, depth], [u, v], off / self.size, weight);
+        sums.add_light(&fitted, [u, v], robust);
+        sums.blur.0 += robust * fitted.rb;
+        sums.blur.1 += robust * fitted.bb;
     }
 }
 
-/// Adds one weighted equation `row . x = right` to normal equations.
-fn accumulate<const N: usize>(
-    sums: &mut ([[f64; N]; N], [f64; N]),
-    row: &[f64; N],
-    right: f64,
-    weight: f64,
-) {
-    for i in 0..N {
-        let scaled = row[i] * weight;
-        // The lower triangle is all that is read.
-        for (to, value) in sums.0[i][..=i].iter_mut().zip(row) {
-            *to += scaled * value;
+/// Two vectors of four; the last lane stays 0.
+const LANES: usize = 8;
+type Lanes = [f32; LANES];
+/// 1 for each sample.
+const ONE: Lanes = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0];
+
+/// The model of one profile: the part of white at each sample, and how it changes.
+struct Profile {
+    part: Lanes,
+    /// By pixels along the profile.
+    slope: Lanes,
+    /// By the blur.
+    wider: Lanes,
+}
+
+impl Profile {
+    fn new(row: u16, reach: f32, cell: f32, blur: f32) -> Self {
+        let sign = |i: usize| f32::from(row >> i & 1);
+        let mut profile =
+            Self { part: ONE.map(|one| one * sign(0)), slope: [0.0; LANES], wider: [0.0; LANES] };
+        // An edge's width grows in pixels where the picture is stretched; the blur doesn't.
+        let narrow = 0.5 / blur;
+        for edge in 0..3 {
+            let jump = sign(edge + 1) - sign(edge);
+            if jump == 0.0 {
+                continue;
+            }
+            let place = (edge as f32 - 1.0) * cell;
+            for (i, one) in ONE.into_iter().enumerate() {
+                let t = (i as f32 * (2.0 / (SAMPLES - 1) as f32) - 1.0) * reach;
+                let z = (t - place) * narrow;
+                let (integral, density) = spline(z);
+                let jump = jump * one;
+                let slope = jump * density * narrow;
+                profile.part[i] += jump * integral;
+                profile.slope[i] += slope;
+                profile.wider[i] -= 2.0 * slope * z;
+            }
         }
-        sums.1[i] += scaled * right;
+        profile
+    }
+
+    fn compare(&self, values: &Lanes, black: f32, contrast: f32) -> Fit {
+        let lanes = |f: &dyn Fn(usize) -> f32| -> Lanes { core::array::from_fn(f) };
+        let r = lanes(&|i| values[i] - (black * ONE[i] + contrast * self.part[i]));
+        let g = lanes(&|i| contrast * self.slope[i]);
+        let b = lanes(&|i| contrast * self.wider[i]);
+        let q = lanes(&|i| ONE[i] - self.part[i]);
+        Fit {
+            rr: dot(&r, &r),
+            rg: dot(&r, &g),
+            gg: dot(&g, &g),
+            rb: dot(&r, &b),
+            bb: dot(&b, &b),
+            parts: [dot(&q, &q), dot(&q, &self.part), dot(&self.part, &self.part)],
+            values: [dot(&q, values), dot(&self.part, values)],
+        }
     }
 }
 
-/// Integral and value at z of the quadratic B-spline that reaches from -1.5 to 1.5.
-fn spline(z: f64) -> (f64, f64) {
-    let a = z.abs();
-    let (beyond, density) = if a <= 0.5 {
-        (0.5 - 0.75 * a + a * a * a / 3.0, 0.75 - a * a)
-    } else if a < 1.5 {
-        let rest = 1.5 - a;
-        (rest * rest * rest / 6.0, rest * rest / 2.0)
-    } else {
-        (0.0, 0.0)
-    };
-    (if z > 0.0 { 1.0 - beyond } else { beyond }, density)
+/// A profile beside its model: sums over the samples of products of residuals r, derivatives by place g and by blur b, and of the parts
+/// of black and white.
+struct Fit {
+    rr: f64,
+    rg: f64,
+    gg: f64,
+    rb: f64,
+    bb: f64,
+    parts: [f64; 3],
+    values: [f64; 2],
+}
+
+fn dot(a: &Lanes, b: &Lanes) -> f64 {
+    let four: [f32; LANES / 2] = core::array::from_fn(|i| a[i] * b[i] + a[i + 4] * b[i + 4]);
+    ((four[0] + four[2]) + (four[1] + four[3])).into()
+}
+
+/// Integral and value at z of the quadratic B-spline that reaches from -1.5 to 1.5: two truncated powers, without a branch.
+fn spline(z: f32) -> (f32, f32) {
+    let positive = |x: f32| if x > 0.0 { x } else { 0.0 };
+    let (outer, inner) = (positive(1.5 - z.abs()), positive(0.5 - z.abs()));
+    let (outer_2, inner_2) = (outer * outer, inner * inner);
+    let beyond = outer_2 * outer * (1.0 / 6.0) - inner_2 * inner * 0.5;
+    (0.5 + (0.5 - beyond).copysign(z), 0.5 * outer_2 - 1.5 * inner_2)
+}
+
+/// What the equations need of all profiles. Each row of the matrices is a product of one of a profile's own factors and one of 1, u, v;
+/// so are their squares, of pairs of factors and of u u, u v, v v, u, v, 1.
+#[derive(Default)]
+struct Sums {
+    map: [[f64; 6]; 6],
+    map_right: [[f64; 3]; 3],
+    light: [[f64; 6]; 3],
+    light_right: [[f64; 3]; 2],
+    blur: (f64, f64),
+    /// Sum of the distances, and how many.
+    off: (f64, f64),
+    /// Squared residuals and squared contrast.
+    misfit: (f64, f64),
+}
+
+/// Where the product of two of u, v, 1 stands.
+const PRODUCT: [[usize; 3]; 3] = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
+
+impl Sums {
+    /// An edge at (u, v) that lies off by `right` where `factors` tell how the map's rows move it.
+    fn add_edge(&mut self, [x, y, w]: [f64; 3], [u, v]: [f64; 2], right: f64, weight: f64) {
+        let places = [u * u, u * v, v * v, u, v, 1.0];
+        let pairs = [x * x, x * y, y * y, x * w, y * w, w * w];
+        for (sums, pair) in self.map.iter_mut().zip(pairs) {
+            add_scaled(sums, &places, weight * pair);
+        }
+        for (sums, factor) in self.map_right.iter_mut().zip([x, y, w]) {
+            add_scaled(sums, &[u, v, 1.0], weight * right * factor);
+        }
+    }
+
+    fn add_light(&mut self, fit: &Fit, [u, v]: [f64; 2], weight: f64) {
+        let places = [u * u, u * v, v * v, u, v, 1.0];
+        for (sums, part) in self.light.iter_mut().zip(fit.parts) {
+            add_scaled(sums, &places, weight * part);
+        }
+        for (sums, value) in self.light_right.iter_mut().zip(fit.values) {
+            add_scaled(sums, &[u, v, 1.0], weight * value);
+        }
+    }
+
+    /// What is added to the map's entries.
+    fn map_step(&self) -> Option<[f64; 8]> {
+        const PAIR: [[usize; 3]; 3] = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
+        let entry = |i: usize, j: usize| self.map[PAIR[i / 3][j / 3]][PRODUCT[i % 3][j % 3]];
+        let matrix = core::array::from_fn(|i| {
+            core::array::from_fn(|j| entry(i, j) * if i == j { 1.0 + 1e-9 } else { 1.0 })
+        });
+        solve(matrix, core::array::from_fn(|i| self.map_right[i / 3][i % 3]))
+    }
+
+    fn light(&self) -> Option<Light> {
+        // 1, u, v where the map has u, v, 1.
+        let turned = |i: usize| (i % 3 + 2) % 3;
+        let entry = |i: usize, j: usize| self.light[i / 3 + j / 3][PRODUCT[turned(i)][turned(j)]];
+        let matrix = core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)));
+        solve(matrix, core::array::from_fn(|i| self.light_right[i / 3][turned(i)]))
+    }
+}
+
+fn add_scaled<const N: usize>(sums: &mut [f64; N], values: &[f64; N], factor: f64) {
+    for (sum, value) in sums.iter_mut().zip(values) {
+        *sum += factor * value;
+    }
 }

@@ -84,6 +84,8 @@ pub fn from_outline(outline: &Outline, points: &[Point]) -> Option<Corners> {
     // In the outline's order: a, b, c, d.
     let (a, c) = (a.min(c), a.max(c));
     let mut corner = [a, 0, c, 0];
+    let area = outline.area as f64;
+    let mut rough = [[0.0; 2]; 4];
     for round in 0..2 {
         for i in [1, 3, 0, 2] {
             if round == 0 && i % 2 == 0 {
@@ -99,11 +101,14 @@ pub fn from_outline(outline: &Outline, points: &[Point]) -> Option<Corners> {
             let count = (after + n - before) % n;
             corner[i] = farthest(points, before, count, outward);
         }
+        rough = corner.map(|index| at(index).map(f64::from));
+        let ratio = twice_area(&rough) / 2.0 / area;
+        let least = if round == 0 { 0.6 } else { 0.7 };
+        if !(least..1.35).contains(&ratio) {
+            return None;
+        }
     }
-    let rough = corner.map(|index| at(index).map(f64::from));
-    let area = outline.area as f64;
-    let ratio = twice_area(&rough) / 2.0 / area;
-    if !(0.7..1.35).contains(&ratio) || !is_convex(&rough) {
+    if !is_convex(&rough) {
         return None;
     }
     let fine = fit_sides(points, &corner)?;
@@ -111,18 +116,33 @@ pub fn from_outline(outline: &Outline, points: &[Point]) -> Option<Corners> {
     ((0.8..1.25).contains(&ratio) && is_convex(&fine)).then_some(fine)
 }
 
-/// The index of the point with the greatest value among `count` points from `start` on, around the end.
+/// The index of the first point with the greatest value among `count` points from `start` on, around the end.
 fn farthest(points: &[Point], start: usize, count: usize, value: impl Fn(&Point) -> i32) -> usize {
-    let n = points.len();
-    let (mut best, mut most) = (start % n, i32::MIN);
-    for step in 0..count {
-        let index = (start + step) % n;
-        let value = value(&points[index]);
+    let (mut best, mut most) = (start, i32::MIN);
+    let (first, rest) = around(points, start, count);
+    for (index, point) in first.iter().enumerate() {
+        let value = value(point);
+        if value > most {
+            (best, most) = (start + index, value);
+        }
+    }
+    for (index, point) in rest.iter().enumerate() {
+        let value = value(point);
         if value > most {
             (best, most) = (index, value);
         }
     }
     best
+}
+
+/// `count` points from `start` on, around the end: those before it and those behind it.
+fn around(points: &[Point], start: usize, count: usize) -> (&[Point], &[Point]) {
+    let (before, behind) = points.split_at(start);
+    if count <= behind.len() {
+        (&behind[..count], &[])
+    } else {
+        (behind, &before[..count - behind.len()])
+    }
 }
 
 /// The crossings of lines through the middle parts of the sides.
@@ -138,27 +158,26 @@ fn fit_sides(points: &[Point], corner: &[usize; 4]) -> Option<Corners> {
         }
         // Blur rounds the corners off.
         let skip = (count / 8).max(1);
-        let relative = |step: usize| {
-            let point = points[(start + step) % n];
-            [f64::from(point[0]) - origin[0], f64::from(point[1]) - origin[1]]
+        let (first, rest) = around(points, (start + skip) % n, (count + 1 - 2 * skip).max(2));
+        let middle = || {
+            let relative = |point: &Point| [0, 1].map(|i| f64::from(point[i]) - origin[i]);
+            first.iter().chain(rest).map(relative)
         };
-        let steps = skip..(count - skip + 1).max(skip + 2);
         let mut sums = LineSums::default();
-        for step in steps.clone() {
-            sums.add(relative(step), 1.0);
-        }
-        let (first, mean) = sums.fit()?;
-        // Spurs: points more than twice as far off as usual.
-        let limit = (4.0 * mean).max(0.75);
-        let mut sums = LineSums::default();
-        for step in steps {
-            let point = relative(step);
-            let distance = first.distance(point);
-            if distance * distance <= limit {
-                sums.add(point, 1.0);
+        middle().for_each(|point| sums.add(point, 1.0));
+        let (mut fitted, mut mean) = sums.fit()?;
+        // Steps of a straight side are a sixth at most; where it is more, without spurs: points more than twice as far off as usual.
+        if mean > 0.25 {
+            let limit = (4.0 * mean).max(0.75);
+            let mut sums = LineSums::default();
+            for point in middle() {
+                let distance = fitted.distance(point);
+                if distance * distance <= limit {
+                    sums.add(point, 1.0);
+                }
             }
+            (fitted, mean) = sums.fit()?;
         }
-        let (fitted, mean) = sums.fit()?;
         // A side that is no line: more than a pixel and a fortieth of its length off.
         let allowed = 1.0 + count as f64 / 40.0;
         if mean > allowed * allowed {

@@ -105,10 +105,10 @@ fn printed_markers_are_found_again() {
         let arguments = ["ar", "--marker", name, "--size", "20mm", "--source", &out, "--json", "-"];
         let line = &poses(&stdout(&run(&arguments)))[0];
         assert_eq!(line["markers"][0]["marker"], name);
-        // 20 mm at 300 dots an inch: 236 dots.
+        // 20 mm at 300 dots an inch: 236 dots, and half a dot for each of up to eight cells, which are whole dots.
         let corners = &line["markers"][0]["corners"];
         let side = corners[1][0].as_f64().unwrap() - corners[0][0].as_f64().unwrap();
-        assert!((side - 236.0).abs() < 4.0, "{side}");
+        assert!((side - 236.0).abs() < 4.1, "{side}");
     }
     let (svg, pdf) = (path("m.svg"), path("m.pdf"));
     assert!(run(&["marker", "aruco4x4_50:7", "-o", &svg]).status.success());

@@ -146,6 +146,9 @@ impl Dictionary {
                     best = Some(Match { id: id as u16, turns: turns as u8, wrong });
                 }
             }
+            if best.is_some_and(|best| best.wrong == 0) {
+                break;
+            }
         }
         best
     }
