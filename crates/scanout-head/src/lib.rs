@@ -11,7 +11,8 @@
 //! | [`screen`] | the physical screen; an eye before it to a camera |
 //! | [`source`] | who moves the viewer: the interface |
 //! | [`manual`], [`opentrack`], [`recording`] | hand, network, files |
-//! | `camera` (feature `camera`) | a marker on the viewer's cap or glasses, seen by a camera |
+//! | `camera` (feature `camera`) | the viewer's face, or a marker on cap or glasses, seen by a camera |
+//! | [`face`] | a face and its pupils in a picture |
 //! | [`one_euro`] | steady when the head rests, quick when it moves |
 //! | [`tracker`] | from samples to the eye of the next picture; a lost face glides back |
 //! | [`latency`] | from input to picture, measured |
@@ -36,6 +37,8 @@ pub mod stereo;
 
 #[cfg(feature = "camera")]
 pub mod camera;
+#[cfg(feature = "std")]
+pub mod face;
 #[cfg(feature = "std")]
 pub mod latency;
 #[cfg(feature = "std")]

@@ -4,7 +4,7 @@ mod support;
 
 use scanout_ar::Dictionary;
 use scanout_head::V3;
-use scanout_head::camera::{Finder, Marker, Mount, Sight};
+use scanout_head::camera::{Find, Marker, MarkerFinder, Mount, Sight};
 use scanout_video::Frame;
 use support::Random;
 
@@ -72,7 +72,7 @@ fn picture(place: V3, yaw: f64, random: &mut Random) -> Frame {
 #[test]
 fn a_worn_marker_is_found_where_it_is() {
     let mut random = Random(11);
-    let mut finder = Finder::new(marker(), Sight::FieldOfView(FOV), MOUNT);
+    let mut finder = MarkerFinder::new(marker(), Sight::FieldOfView(FOV), MOUNT);
     let (mut aside, mut deep, mut count) = (0.0f64, 0.0f64, 0);
     for index in 0..8 {
         let place = [
@@ -97,7 +97,7 @@ fn a_worn_marker_is_found_where_it_is() {
 #[test]
 fn a_marker_that_rests_hardly_trembles() {
     let mut random = Random(12);
-    let mut finder = Finder::new(marker(), Sight::FieldOfView(FOV), MOUNT);
+    let mut finder = MarkerFinder::new(marker(), Sight::FieldOfView(FOV), MOUNT);
     let place = [40.0, 30.0, 600.0];
     let mut found = Vec::new();
     for index in 0..10 {
@@ -116,12 +116,12 @@ fn a_marker_that_rests_hardly_trembles() {
 #[test]
 fn nobody_is_found_where_nobody_is() {
     let mut random = Random(13);
-    let mut finder = Finder::new(marker(), Sight::FieldOfView(FOV), MOUNT);
+    let mut finder = MarkerFinder::new(marker(), Sight::FieldOfView(FOV), MOUNT);
     // Behind the camera's field of view, and a picture of nothing.
     assert_eq!(finder.find(&picture([3000.0, 0.0, 600.0], 0.0, &mut random)), None);
     assert_eq!(finder.find(&Frame::default()), None);
     // Another marker than the one that is worn.
     let other = Marker { id: 8, ..marker() };
-    let mut finder = Finder::new(other, Sight::FieldOfView(FOV), MOUNT);
+    let mut finder = MarkerFinder::new(other, Sight::FieldOfView(FOV), MOUNT);
     assert_eq!(finder.find(&picture([0.0, 0.0, 600.0], 0.0, &mut random)), None);
 }

@@ -79,3 +79,55 @@ fn steady_at_rest_and_close_behind_when_it_moves() {
     );
     assert!(far_ahead[1] < ahead[1] && far_ahead[0] > ahead[0], "{far_ahead:?}");
 }
+
+/// A real head: roughness (second differences, as the standard deviation of the noise that would make them, mm) before and behind the
+/// filter, and its delay, axis by axis.
+#[test]
+fn a_real_head_becomes_smoother_and_hardly_later() {
+    let file = include_str!("carphone.csv");
+    let samples = scanout_head::recording::read(file.as_bytes()).unwrap();
+    let measure = |options: Options| -> [[f64; 3]; 3] {
+        let mut tracker = Tracker::new(options);
+        let mut eyes = Vec::new();
+        for sample in &samples {
+            let eye = tracker.update(sample.time, Some(*sample));
+            // Without the glide from the place of rest, and with both.
+            if let (true, Some(raw)) = (sample.time > 1.0, sample.eye) {
+                eyes.push((sample.time, raw, eye));
+            }
+        }
+        std::array::from_fn(|axis| {
+            let rough = |of: &dyn Fn(usize) -> f64| {
+                let second = (2..eyes.len()).map(|i| of(i) - 2.0 * of(i - 1) + of(i - 2));
+                (second.map(|d| d * d).sum::<f64>() / (6 * (eyes.len() - 2)) as f64).sqrt()
+            };
+            // The delay at which the raw way fits best, between samples along straight lines.
+            let raw_at = |time: f64| {
+                let next = eyes.partition_point(|eye| eye.0 < time).clamp(1, eyes.len() - 1);
+                let ((t0, a, _), (t1, b, _)) = (&eyes[next - 1], &eyes[next]);
+                a[axis] + (b[axis] - a[axis]) * ((time - t0) / (t1 - t0))
+            };
+            let misfit = |delay: f64| {
+                let later = eyes.iter().skip(10);
+                later.map(|(t, _, eye)| (raw_at(t - delay) - eye[axis]).powi(2)).sum::<f64>()
+            };
+            let delays = (0..=200).map(|ms| f64::from(ms) / 1000.0);
+            let delay = delays.min_by(|a, b| misfit(*a).total_cmp(&misfit(*b))).unwrap();
+            [rough(&|i| eyes[i].1[axis]), rough(&|i| eyes[i].2[axis]), 1000.0 * delay]
+        })
+    };
+    let base = Options::default();
+    let filtered = measure(base);
+    let predicted = measure(Options { prediction: 0.05, ..base });
+    for (name, rows) in [("filter", filtered), ("filter, 50 ms ahead", predicted)] {
+        for (axis, [raw, smooth, delay]) in ["x", "y", "z"].iter().zip(rows) {
+            println!(
+                "{name:<20} {axis}: roughness {raw:.2} -> {smooth:.2} mm, delay {delay:.0} ms"
+            );
+        }
+    }
+    for ([raw, smooth, delay], [_, rougher, earlier]) in filtered.into_iter().zip(predicted) {
+        assert!(smooth < 0.8 * raw && delay <= 30.0, "{filtered:?}");
+        assert!(rougher > smooth && earlier < delay, "{predicted:?}");
+    }
+}

@@ -12,9 +12,10 @@ use crate::picture::{decode_picture, jpeg, read_picture};
 use crate::ppm;
 use crate::y4m_in::Y4m;
 
-type Stream = Box<dyn BufRead>;
+/// Readable from whatever thread has it.
+type Stream = Box<dyn BufRead + Send>;
 
-/// A film that is read frame by frame.
+/// A film that is read frame by frame, by any thread.
 pub struct Source {
     kind: Kind,
     name: String,
@@ -219,3 +220,9 @@ impl Source {
         Ok(frames)
     }
 }
+
+/// Whoever reads a camera on a thread of its own relies on it.
+const _: () = {
+    const fn goes_between_threads<T: Send>() {}
+    goes_between_threads::<Source>();
+};

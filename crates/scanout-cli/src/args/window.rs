@@ -33,8 +33,8 @@ pub struct WindowArgs {
     /// Two eyes in one picture
     #[arg(long, value_enum, value_name = "HOW")]
     pub stereo: Option<Stereo>,
-    /// Distance of the two eyes, mm
-    #[arg(long, value_name = "MM", requires = "stereo", default_value_t = 63.0, value_parser = between(0.0, 200.0))]
+    /// Distance of the two eyes, mm: for --stereo, and for depth with --face
+    #[arg(long, value_name = "MM", default_value_t = 63.0, value_parser = between(0.0, 200.0))]
     pub eye_distance: f64,
     /// The right eye's picture where the left eye's belongs
     #[arg(long, requires = "stereo")]
@@ -56,7 +56,7 @@ pub struct WindowArgs {
     #[arg(long, value_name = "N", help_heading = "Screen")]
     pub frames: Option<u32>,
 
-    /// Who moves the viewer: mouse, keys, udp (opentrack), camera (a marker on your cap), or a recorded FILE.csv
+    /// Who moves the viewer: mouse, keys, udp (opentrack), camera (your face, or a marker on your cap), or a recorded FILE.csv
     #[arg(long, value_name = "WHO", default_value = "mouse", help_heading = "Viewer")]
     pub head: String,
     /// Where opentrack's packets are awaited; 0.0.0.0:4242 lets other machines in
@@ -105,6 +105,12 @@ pub struct WindowArgs {
     /// Frames a second, where the source doesn't say it
     #[arg(long, value_name = "N", default_value_t = 30.0, value_parser = between(0.01, 1000.0), help_heading = "Camera")]
     pub source_fps: f64,
+    /// Look for your face, not for a marker: the model that finds it (scripts/face-models fetches both)
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "eyes", conflicts_with_all = ["marker", "marker_size"], help_heading = "Camera")]
+    pub face: Option<PathBuf>,
+    /// The model that finds its pupils
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "face", help_heading = "Camera")]
+    pub eyes: Option<PathBuf>,
     /// The marker on your cap or glasses, DICTIONARY:NUMBER
     #[arg(long, value_name = "MARKER", default_value = "aruco4x4_50:0", help_heading = "Camera")]
     pub marker: String,

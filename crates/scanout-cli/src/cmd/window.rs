@@ -8,7 +8,8 @@ use std::io::BufReader;
 use std::path::Path;
 use std::time::Instant;
 
-use scanout_head::camera::{self, Camera, Finder, Marker, Mount, Sight};
+use scanout_head::camera::{self, Camera, FaceFinder, Find, Marker, MarkerFinder, Mount, Sight};
+use scanout_head::face::{Cascade, Localiser, ModelError};
 use scanout_head::latency::Latency;
 use scanout_head::manual::Manual;
 use scanout_head::one_euro::Settings;
@@ -159,45 +160,20 @@ fn is_film(source: &Path) -> bool {
     !is_dash(source) && !source.starts_with("/dev")
 }
 
-/// A marker on the viewer, seen by a camera, or in a film of one.
+/// The viewer, seen by a camera or in a film of one.
 fn camera(args: &WindowArgs, screen: &Screen, epoch: Instant) -> Result<(Head, Option<f64>)> {
-    let marker = Marker::by_name(&args.marker, args.marker_size).ok_or_else(|| {
-        let what = format_args!("--marker {}: no such marker", args.marker).to_string();
-        Error::usage(what, "give DICTIONARY:NUMBER, such as aruco4x4_50:0 or apriltag36h11:5")
-    })?;
-    let sight = match &args.calibration {
-        None => Sight::FieldOfView(args.fov),
-        Some(path) => {
-            let text = std::fs::read_to_string(path).map_err(|error| Error::io(path, &error))?;
-            camera::calibration(&text)
-                .map_err(|error| Error::Failed(format!("{}:{error}", path.display())))?
-        }
-    };
-    let place = args.camera_place.map_or_else(
-        || {
-            let [_, height] = screen.size;
-            screen.at(0.0, 1.0 + 20.0 / height)
-        },
-        |place| place.0,
-    );
-    let mount = Mount { place, tilt: args.camera_tilt };
-    let mut finder = Finder::new(marker, sight, mount);
+    let (mut finder, what) = finder(args, sight(args)?, mount(args, screen))?;
     let failed = |error: camera::VideoError| Error::Failed(error.to_string());
     if !is_film(&args.source) {
         let camera = Camera::start(&args.source, args.source_fps, finder, epoch).map_err(failed)?;
         return Ok((Head::Other(Box::new(camera)), None));
     }
-    let film = camera::film(&args.source, args.source_fps, &mut finder, |error| {
+    let film = camera::film(&args.source, args.source_fps, &mut *finder, |error| {
         narrate!("scanout: {error}");
     });
     let samples = film.map_err(failed)?;
     let seen = samples.iter().filter(|sample| sample.eye.is_some()).count();
-    narrate!(
-        "scanout: {}: {} is in {seen} of {} frames",
-        args.source.display(),
-        args.marker,
-        samples.len()
-    );
+    narrate!("scanout: {}: {what} is in {seen} of {} frames", args.source.display(), samples.len());
     if samples.is_empty() {
         return Err(Error::failed(
             args.source.display(),
@@ -206,6 +182,47 @@ fn camera(args: &WindowArgs, screen: &Screen, epoch: Instant) -> Result<(Head, O
         ));
     }
     Ok(replayed(samples, args))
+}
+
+/// Who looks at the frames, and what for.
+fn finder(args: &WindowArgs, sight: Sight, mount: Mount) -> Result<(Box<dyn Find>, String)> {
+    let (Some(face), Some(eyes)) = (&args.face, &args.eyes) else {
+        let marker = Marker::by_name(&args.marker, args.marker_size).ok_or_else(|| {
+            let what = format_args!("--marker {}: no such marker", args.marker).to_string();
+            Error::usage(what, "give DICTIONARY:NUMBER, such as aruco4x4_50:0 or apriltag36h11:5")
+        })?;
+        return Ok((Box::new(MarkerFinder::new(marker, sight, mount)), args.marker.clone()));
+    };
+    if args.eye_distance < 30.0 {
+        let what = format_args!("--eye-distance {}: too little to tell depth", args.eye_distance);
+        return Err(Error::usage(what, "measure from pupil to pupil; 63 is usual"));
+    }
+    let cascade = model(face, Cascade::read)?;
+    let localiser = model(eyes, Localiser::read)?;
+    let finder = FaceFinder::new(cascade, localiser, args.eye_distance, sight, mount);
+    Ok((Box::new(finder), "a face".into()))
+}
+
+fn model<T>(path: &Path, read: fn(&[u8]) -> std::result::Result<T, ModelError>) -> Result<T> {
+    let bytes = std::fs::read(path).map_err(|error| Error::io(path, &error))?;
+    read(&bytes).map_err(|error| {
+        let remedy = "fetch it anew with scripts/face-models; --face and --eyes are not the same";
+        Error::failed(path.display(), error, remedy)
+    })
+}
+
+/// How the camera sees.
+fn sight(args: &WindowArgs) -> Result<Sight> {
+    let Some(path) = &args.calibration else { return Ok(Sight::FieldOfView(args.fov)) };
+    let text = std::fs::read_to_string(path).map_err(|error| Error::io(path, &error))?;
+    camera::calibration(&text).map_err(|error| Error::Failed(format!("{}:{error}", path.display())))
+}
+
+/// Where the camera is.
+fn mount(args: &WindowArgs, screen: &Screen) -> Mount {
+    let above = || screen.at(0.0, 1.0 + 20.0 / screen.size[1]);
+    let place = args.camera_place.map_or_else(above, |place| place.0);
+    Mount { place, tilt: args.camera_tilt }
 }
 
 /// The scene, and a shot whose window is the screen.
