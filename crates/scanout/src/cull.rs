@@ -7,6 +7,7 @@
 //! | view volume | bounding box of pixel centres against the frame | yes |
 //! | whole mesh | bounding sphere against the six planes, in clip units, rounded so that it never culls what is visible | no |
 
+use crate::math::add_product;
 use crate::mesh::Sphere;
 use crate::transform::ClipMatrix;
 
@@ -34,28 +35,40 @@ pub fn facing(signed_area: i64) -> Facing {
 /// Facing of a triangle that may reach behind the camera, from its clip coordinates: the sign of the determinant of
 /// (x, y, w), which is positive for a front face.
 pub fn facing_in_clip_space(c: &[[i32; 4]; 3]) -> Facing {
-    let [a, b, c] = c.map(|v| [v[0] as i128, v[1] as i128, v[3] as i128]);
-    let determinant = a[0] * (b[1] * c[2] - c[1] * b[2]) - a[1] * (b[0] * c[2] - c[0] * b[2])
-        + a[2] * (b[0] * c[1] - c[0] * b[1]);
+    let [a, b, c] = c.map(|v| [v[0] as i64, v[1] as i64, v[3] as i64]);
+    let mut determinant = 0;
+    for (i, (j, k)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
+        determinant = add_product(determinant, b[j] * c[k], a[i]);
+        determinant = add_product(determinant, -(c[j] * b[k]), a[i]);
+    }
     facing(-(determinant.signum() as i64))
 }
 
 /// Whether a bounding sphere lies wholly outside one of the view volume's planes.
 pub fn sphere_outside(m: &ClipMatrix, sphere: &Sphere) -> bool {
-    let centre = m.apply(sphere.centre).map(i64::from);
-    // Each plane is `row . p >= 0` with row = w + x, w - x, w + y, w - y, z, w - z.
-    let row = |i: usize, sign_i: i64, sign_w: i64| {
-        let distance = sign_i * centre[i] + sign_w * centre[3];
-        // Length of the plane's normal, rounded up: components below 2^31, halved twice to fit.
-        let squares: u64 = (0..3)
-            .map(|k| sign_i * m.m[i][k] as i64 + sign_w * m.m[3][k] as i64)
-            .map(|n| (n.unsigned_abs() >> 2) + 1)
-            .map(|n| n * n)
-            .sum();
-        let length = (crate::math::isqrt64(squares) as i64 + 1) << 2;
-        distance + ((length * sphere.radius as i64) >> 15) + 4 < 0
-    };
-    row(2, 1, 0) || [0, 1].iter().any(|&i| row(i, 1, 1) || row(i, -1, 1)) || row(2, -1, 1)
+    let centre = m.apply(sphere.centre);
+    // Each plane is `row . p >= 0` with row = w + x, w - x, w + y, w - y, z, w - z; those that most often decide first.
+    [(2, 1, 0), (0, 1, 1), (0, -1, 1), (1, 1, 1), (1, -1, 1), (2, -1, 1)]
+        .iter()
+        .any(|&(i, sign_i, sign_w)| outside(m, &centre, sphere.radius, i, sign_i, sign_w))
+}
+
+/// Whether a sphere lies outside the plane `sign_i row_i + sign_w row_w`.
+#[inline(never)]
+fn outside(
+    m: &ClipMatrix,
+    centre: &[i32; 4],
+    radius: u16,
+    i: usize,
+    sign_i: i64,
+    sign_w: i64,
+) -> bool {
+    let sum = |a: i32, w: i32| sign_i * a as i64 + sign_w * w as i64;
+    // Length of the plane's normal, rounded up: components below 2^31, halved twice to fit.
+    let squares: u64 =
+        (0..3).map(|k| (sum(m.m[i][k], m.m[3][k]).unsigned_abs() >> 2) + 1).map(|n| n * n).sum();
+    let length = (crate::math::isqrt64(squares) as i64 + 1) << 2;
+    sum(centre[i], centre[3]) + ((length * radius as i64) >> 15) + 4 < 0
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@
 //! | range of coordinates | arithmetic | bound |
 //! |---|---|---|
 //! | below 2^15 (2048 pixels) | i64 | numerators < 2^54 |
-//! | below 2^29 | i64 edges, i128 planes | edge values < 2^61 |
+//! | below 2^29 | i64; quotients a bit a step, modulo 2^64 | edge values < 2^61 |
 //!
 //! What it will not do: triangles without area (there is nothing to draw).
 
@@ -155,21 +155,30 @@ impl Triangle {
     /// The same for corners far outside the screen.
     #[cold]
     fn wide_plane(&self, a0: u32, da1: i64, da2: i64) -> Plane {
-        let wide = |v: i64| v as i128;
         let e = (32 - (self.reach >> 4).leading_zeros()).saturating_sub(11);
-        let area = wide(self.area);
-        let ([d1, d2], [ox, oy]) = (self.sides().map(|d| d.map(wide)), self.offset().map(wide));
-        let (da1, da2) = (wide(da1), wide(da2));
-        let quotient = |n: i128| ((n << (4 + e)) + (area >> 1)).div_euclid(area);
-        let gx = quotient(da1 * d2[1] - da2 * d1[1]);
-        let gy = quotient(d1[0] * da2 - d2[0] * da1);
+        let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
+        let gx = self.long_quotient(da1 * d2[1] - da2 * d1[1], 4 + e);
+        let gy = self.long_quotient(d1[0] * da2 - d2[0] * da1, 4 + e);
+        // All that is asked for lies within the lowest 64 bits.
         let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
-        let half = (1i128 << e) >> 1;
+        let half = (1i64 << e) >> 1;
         Plane {
             c: a0.wrapping_add((offset >> (4 + e)) as u32),
-            gx: ((gx + half) >> e) as u32,
-            gy: ((gy + half) >> e) as u32,
+            gx: (gx.wrapping_add(half) >> e) as u32,
+            gy: (gy.wrapping_add(half) >> e) as u32,
         }
+    }
+
+    /// `n 2^bits / area`, nearest, halves upwards, modulo 2^64: a division, then a bit a step.
+    #[inline(never)]
+    fn long_quotient(&self, n: i64, bits: u32) -> i64 {
+        let (mut quotient, mut rest) = (n.div_euclid(self.area), n.rem_euclid(self.area));
+        for _ in 0..bits {
+            let next = (2 * rest >= self.area) as i64;
+            rest = 2 * rest - next * self.area;
+            quotient = quotient << 1 | next;
+        }
+        quotient.wrapping_add((rest + (self.area >> 1) >= self.area) as i64)
     }
 
     /// Whether edge values fit 16 bits at every pixel of the box and up to eight columns beside it.
@@ -301,6 +310,38 @@ mod tests {
             worst = worst.max(plane_error(v, a, 7));
         }
         assert!(worst < 4096.0 + 64.0, "{worst} / 65536 of a step");
+    }
+
+    /// The definition of a far triangle's gradients in 128 bits.
+    #[test]
+    fn far_gradients_are_exact() {
+        let mut random = Random(6);
+        for i in 0..20_000 {
+            let mut v = random.corners(-(1 << 29), 1 << 30);
+            if i % 3 == 0 {
+                v[2] = [0, 1].map(|k| (v[0][k] + v[1][k]) / 2 + random.next(3) as i32);
+            }
+            let a = [(); 3].map(|()| (random.next(65536) << 16 | random.next(65536)) as u32);
+            let Some(t) = Triangle::new(v) else { continue };
+            if t.small {
+                continue;
+            }
+            let e = (32 - (t.reach >> 4).leading_zeros()).saturating_sub(11);
+            let (area, sign) = (t.area as i128, signed_area(&v).signum() as i128);
+            let d = |i: usize, k: usize| (v[i][k] - v[0][k]) as i128 * sign;
+            let da = |i: usize| a[i] as i128 - a[0] as i128;
+            let quotient = |n: i128| ((n << (4 + e)) + (area >> 1)).div_euclid(area);
+            let gx = quotient(da(1) * d(2, 1) - da(2) * d(1, 1));
+            let gy = quotient(d(1, 0) * da(2) - d(2, 0) * da(1));
+            let offset = gx * (8 - v[0][0] as i128) + gy * (8 - v[0][1] as i128);
+            let half = (1i128 << e) >> 1;
+            let exact = Plane {
+                c: a[0].wrapping_add((offset >> (4 + e)) as u32),
+                gx: ((gx + half) >> e) as u32,
+                gy: ((gy + half) >> e) as u32,
+            };
+            assert_eq!(t.plane(a), exact, "{v:?} {a:?}");
+        }
     }
 
     #[test]

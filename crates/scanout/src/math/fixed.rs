@@ -180,8 +180,11 @@ pub(crate) const fn saturate32(n: i64) -> i32 {
     }
 }
 
+// 128-bit arithmetic is a few instructions on machines of 64 bits and a page of them on smaller ones, where it is a call.
+
 /// The nearest i64 that exists.
-#[inline]
+#[cfg_attr(target_pointer_width = "64", inline)]
+#[cfg_attr(not(target_pointer_width = "64"), inline(never))]
 pub(crate) const fn saturate64(n: i128) -> i64 {
     if n > i64::MAX as i128 {
         i64::MAX
@@ -194,9 +197,49 @@ pub(crate) const fn saturate64(n: i128) -> i64 {
 
 /// `n / 2^bits`, nearest, ties upwards; `bits` in 1 - 126. Exact in that no intermediate sum
 /// overflows.
-#[inline]
+#[cfg_attr(target_pointer_width = "64", inline)]
+#[cfg_attr(not(target_pointer_width = "64"), inline(never))]
 pub(crate) const fn shift_right_nearest(n: i128, bits: u32) -> i128 {
     (n >> bits) + ((n >> (bits - 1)) & 1)
+}
+
+/// `sum + a b`, saturating.
+#[cfg_attr(target_pointer_width = "64", inline)]
+#[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+pub(crate) const fn add_product(sum: i128, a: i64, b: i64) -> i128 {
+    sum.saturating_add(a as i128 * b as i128)
+}
+
+/// `floor(n / d)` for `d` of at least 2^62, by digits of 32 bits (Knuth, The Art of Computer Programming, volume 2, 4.3.1,
+/// algorithm D).
+pub(crate) const fn div_by_large(n: u128, d: u64) -> u128 {
+    let (high, mut low) = ((n >> 64) as u64, n as u64);
+    let (mut quotient, mut rest, mut d) = ((high / d) as u128, high % d, d);
+    // The divisor's top bit must be set; the rest is below the divisor.
+    while d >> 63 == 0 {
+        d <<= 1;
+        rest = rest << 1 | low >> 63;
+        low <<= 1;
+    }
+    let (d_high, d_low) = (d >> 32, d & 0xffff_ffff);
+    let mut digits = 0;
+    while digits < 2 {
+        let digit = low >> 32;
+        low <<= 32;
+        let (mut q, mut r) = (rest / d_high, rest % d_high);
+        // At most two too large.
+        while q >> 32 != 0 || q * d_low > (r << 32 | digit) {
+            q -= 1;
+            r += d_high;
+            if r >> 32 != 0 {
+                break;
+            }
+        }
+        rest = (rest << 32 | digit).wrapping_sub(q.wrapping_mul(d));
+        quotient = quotient << 32 | q as u128;
+        digits += 1;
+    }
+    quotient
 }
 
 /// `n / d`, nearest, ties away from zero, saturated; `None` for `d` = 0.
@@ -230,6 +273,29 @@ mod tests {
     extern crate std;
     use super::*;
     use crate::math::testing::Random;
+
+    #[test]
+    fn division_by_large_numbers_is_exact() {
+        let mut random = Random::new();
+        let edges = [
+            1 << 62,
+            (1 << 62) + 1,
+            (1 << 63) - 1,
+            1 << 63,
+            (1 << 63) + 1,
+            u64::MAX,
+            0xffff_ffff << 32,
+        ];
+        for i in 0..200_000usize {
+            let d = if i % 2 == 0 { edges[i / 2 % 7] } else { random.u64() | 1 << 62 };
+            let n = (random.u64() as u128) << 64 | random.u64() as u128;
+            // Also numerators about a multiple of the divisor.
+            let near = (n >> 64) * d as u128;
+            for n in [n >> (i % 128), near, near.wrapping_sub(1), near + d as u128 - 1] {
+                assert_eq!(div_by_large(n, d), n / d as u128, "{n} / {d}");
+            }
+        }
+    }
 
     const EDGES: [i32; 13] =
         [0, 1, -1, 2, -2, 3, 0x7fff, 0x8000, 0x10000, -0x10000, i32::MAX, i32::MIN, i32::MIN + 1];

@@ -13,7 +13,8 @@
 //!
 //! What it will not do: project (see the transform stage), invert projections.
 
-use super::{Q16, Quat, Vec3, q32_from_f64, saturate64, shift_right_nearest};
+use super::shift_right_nearest;
+use super::{Q16, Quat, Vec3, add_product, div_by_large, q32_from_f64, saturate64};
 use core::ops::Mul;
 
 const ONE: i64 = 1 << 32;
@@ -90,7 +91,7 @@ impl Mat4 {
             while k < 4 {
                 let (a, b) = (self.m[row][k], other.m[k][column]);
                 if a != 0 && b != 0 {
-                    sum = sum.saturating_add(a as i128 * b as i128);
+                    sum = add_product(sum, a, b);
                 }
                 k += 1;
             }
@@ -128,8 +129,9 @@ impl Mat4 {
     /// First three entries of a row times a vector: Q32 x Q16 = Q48, below 2^96.
     const fn row_dot(&self, row: usize, v: Vec3) -> i128 {
         let [x, y, z] = v.raw();
+        let (x, y, z) = (x as i64, y as i64, z as i64);
         let m = &self.m[row];
-        m[0] as i128 * x as i128 + m[1] as i128 * y as i128 + m[2] as i128 * z as i128
+        add_product(add_product(add_product(0, m[0], x), m[1], y), m[2], z)
     }
 
     /// The inverse of a rotation and translation: transposed, and the translation turned back.
@@ -155,10 +157,10 @@ impl Mat4 {
             let mut sum = 0i128;
             let mut k = 0;
             while k < 3 {
-                sum = sum.saturating_sub(self.m[row][k] as i128 * m[k][3] as i128);
+                sum = add_product(sum, self.m[row][k], m[k][3]);
                 k += 1;
             }
-            self.m[row][3] = saturate64(shift_right_nearest(sum, 32));
+            self.m[row][3] = saturate64(shift_right_nearest(sum.saturating_neg(), 32));
             row += 1;
         }
         self
@@ -176,7 +178,7 @@ impl Mat4 {
             return None;
         }
         // b = rows at 40 bits; row i of the matrix is b[i] * 2^down[i].
-        let mut b = [[0i128; 3]; 3];
+        let mut b = [[0i64; 3]; 3];
         let mut down = [0i32; 3];
         let mut i = 0;
         while i < 3 {
@@ -184,21 +186,20 @@ impl Mat4 {
             down[i] = 24 - all.leading_zeros() as i32;
             let mut k = 0;
             while k < 3 {
-                b[i][k] = shift_nearest(m[i][k] as i128, -down[i]);
+                b[i][k] = at_40_bits(m[i][k], down[i]);
                 k += 1;
             }
             i += 1;
         }
-        // Cofactors at 81 bits, determinant at 123.
-        let mut cofactor = [[0i128; 3]; 3];
-        i = 0;
-        while i < 9 {
-            let (r, c) = (i / 3, i % 3);
-            let (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
-            cofactor[r][c] = b[r1][c1] * b[r2][c2] - b[r1][c2] * b[r2][c1];
-            i += 1;
-        }
-        let det = b[0][0] * cofactor[0][0] + b[0][1] * cofactor[0][1] + b[0][2] * cofactor[0][2];
+        let det = add_wide_product(
+            add_wide_product(
+                add_wide_product(0, cofactor(&b, 0, 0), b[0][0]),
+                cofactor(&b, 0, 1),
+                b[0][1],
+            ),
+            cofactor(&b, 0, 2),
+            b[0][2],
+        );
         if det == 0 {
             return None;
         }
@@ -209,28 +210,49 @@ impl Mat4 {
         i = 0;
         while i < 9 {
             let (r, c) = (i / 3, i % 3);
-            let n = cofactor[c][r];
-            if n != 0 {
-                // n / det * 2^(64 - down - det_down), the quotient taken at full width.
-                let up = n.unsigned_abs().leading_zeros() as i32 - 1;
-                let quotient = (n << up) / det;
-                let by = 64 - down[c] - det_down - up;
-                let wide = quotient.unsigned_abs().leading_zeros() as i32;
-                if by >= wide {
-                    return None;
-                }
-                let entry = shift_nearest(quotient, by);
-                if entry != saturate64(entry) as i128 {
-                    return None;
-                }
-                out.m[r][c] = entry as i64;
-            } else {
-                out.m[r][c] = 0;
+            match quotient(cofactor(&b, c, r), det, 64 - down[c] - det_down) {
+                Some(entry) => out.m[r][c] = entry,
+                None => return None,
             }
             i += 1;
         }
         Some(out.move_back(m))
     }
+}
+
+/// `n 2^-down`, nearest; below 2^41.
+const fn at_40_bits(n: i64, down: i32) -> i64 {
+    if down <= 0 { n << -down } else { (n >> down) + ((n >> (down - 1)) & 1) }
+}
+
+/// A cofactor of a matrix whose entries have 40 bits: 81 bits.
+#[inline(never)]
+const fn cofactor(b: &[[i64; 3]; 3], r: usize, c: usize) -> i128 {
+    let (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
+    add_product(add_product(0, b[r1][c1], b[r2][c2]), b[r1][c2], -b[r2][c1])
+}
+
+/// `sum + a b`, within 127 bits.
+#[inline(never)]
+const fn add_wide_product(sum: i128, a: i128, b: i64) -> i128 {
+    sum + a * b as i128
+}
+
+/// `n / det * 2^by`, the quotient taken at full width; `det` has 63 bits. `None` beyond 64 bits.
+#[inline(never)]
+const fn quotient(n: i128, det: i128, by: i32) -> Option<i64> {
+    if n == 0 {
+        return Some(0);
+    }
+    let up = n.unsigned_abs().leading_zeros() as i32 - 1;
+    let size = div_by_large(n.unsigned_abs() << up, det.unsigned_abs() as u64);
+    let by = by - up;
+    if by >= size.leading_zeros() as i32 {
+        return None;
+    }
+    let negative = (n < 0) != (det < 0);
+    let entry = shift_nearest(if negative { -(size as i128) } else { size as i128 }, by);
+    if entry == saturate64(entry) as i128 { Some(entry as i64) } else { None }
 }
 
 /// `n * 2^by`, nearest when `by` is negative.

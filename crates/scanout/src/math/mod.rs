@@ -44,7 +44,8 @@ pub mod tables {
     pub use super::trig::SINE;
 }
 
-pub(crate) use fixed::{div_nearest, q32_from_f64, saturate32, saturate64, shift_right_nearest};
+pub(crate) use fixed::{add_product, div_by_large, div_nearest, q32_from_f64};
+pub(crate) use fixed::{saturate32, saturate64, shift_right_nearest};
 
 #[cfg(test)]
 pub(crate) mod testing {

@@ -82,9 +82,10 @@ impl Angle {
         if den == 0 {
             return Angle(0);
         }
-        let (n, d) = ((num as i64) << 32, den as i64);
-        let (n, d) = if d < 0 { (-(n as i128), -(d as i128)) } else { (n as i128, d as i128) };
-        Angle((n + d / 2).div_euclid(d) as u32)
+        let (num, den) = (num as i64, den as i64);
+        let (num, den) = if den < 0 { (-num, -den) } else { (num, den) };
+        // Without whole turns, so that 63 bits hold it.
+        Angle((((num.rem_euclid(den) << 32) + den / 2) / den) as u32)
     }
 
     /// Sine and cosine in Q2.30, error at most 2^-29.8. Exact at multiples of 90 degrees, exactly

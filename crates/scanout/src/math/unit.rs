@@ -16,7 +16,7 @@
 
 use super::fixed::saturate32;
 use super::root::{isqrt64, rsqrt32};
-use super::{Q16, Vec3, shift_right_nearest};
+use super::{Q16, Vec3};
 use core::ops::Neg;
 
 /// A direction, 3 x Q2.30: `1 << 30` is one.
@@ -122,7 +122,7 @@ pub(super) const fn normalise4(v: [i64; 4]) -> Option<[i32; 4]> {
         let wide = if bits <= 31 {
             v[i] << (31 - bits)
         } else {
-            shift_right_nearest(v[i] as i128, bits - 31) as i64
+            (v[i] >> (bits - 31)) + ((v[i] >> (bits - 32)) & 1)
         };
         // Rounding may reach 2^31; one less keeps four squares within 64 bits.
         let most = (1i64 << 31) - 1;
