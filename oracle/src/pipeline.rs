@@ -2,7 +2,7 @@
 //! frame loop calls them.
 
 use scanout::interpolate::channel;
-use scanout::raster::triangle::{Run, spans};
+use scanout::raster::triangle::{Run, Runs};
 use scanout::texture::{General, Sampler, TextureSetup, integer_q, reciprocal};
 use scanout::{depth, setup, texture};
 
@@ -30,15 +30,13 @@ impl Pipeline {
         let corners = triangle.0.map(|v| [v.x, v.y]);
         let Some(prepared) = setup::Triangle::new(corners) else { return picture };
         let width = self.width as i32;
-        spans(&prepared, 0..self.height as i32, width, &mut |runs| {
-            for &Run { y, x0, x1 } in runs {
-                for x in x0..x1 {
-                    let pixel = &mut picture.pixels[(y * width + x) as usize];
-                    assert!(pixel.is_none(), "pixel {x}, {y} drawn twice");
-                    *pixel = Some(value(&prepared, x, y));
-                }
+        for Run { y, x0, x1 } in Runs::spans(&prepared, 0..self.height as i32, 0..width) {
+            for x in x0..x1 {
+                let pixel = &mut picture.pixels[(y * width + x) as usize];
+                assert!(pixel.is_none(), "pixel {x}, {y} drawn twice");
+                *pixel = Some(value(&prepared, x, y));
             }
-        });
+        }
         picture
     }
 }

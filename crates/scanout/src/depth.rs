@@ -4,6 +4,8 @@
 //! that rounded to nearest; the fragment passes when strictly nearer than what is stored, so of two equal ones the
 //! first drawn stays. What it will not do: a linear-in-distance buffer.
 
+use crate::interpolate::Plane;
+
 /// What the depth memory holds where nothing has been drawn.
 pub const FAR: u16 = 0xffff;
 
@@ -14,6 +16,18 @@ pub const MAX: u32 = 0xffff_0000;
 #[inline(always)]
 pub fn round(value: u32) -> u16 {
     (value.wrapping_add(0x8000) >> 16) as u16
+}
+
+/// A depth plane with half a step added: [`whole`] of its values is [`round`] of the plane's.
+#[inline(always)]
+pub fn biased(z: &Plane) -> Plane {
+    Plane { c: z.c.wrapping_add(0x8000), ..*z }
+}
+
+/// The whole steps of a [`biased`] plane's value.
+#[inline(always)]
+pub fn whole(value: u32) -> u16 {
+    (value >> 16) as u16
 }
 
 /// Tests a fragment and stores its depth when it passes.

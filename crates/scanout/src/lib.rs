@@ -75,7 +75,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![no_std]
-// `unsafe` is in three places, `lanes::sse2`, `avx2` and `raster::line::fill`, each beside its reason.
+// `unsafe` is in four places, `lanes::sse2`, `avx2`, `memory` and `raster::line::fill`, each beside its reason.
 #![deny(unsafe_code)]
 
 mod avx2;
@@ -90,6 +90,7 @@ pub mod interpolate;
 mod lanes;
 pub mod light;
 pub mod math;
+mod memory;
 pub mod mesh;
 pub mod mesh_edges;
 pub mod output;

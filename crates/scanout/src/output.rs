@@ -16,6 +16,10 @@
 //!
 //! What it will not do: gamma, error diffusion (a pixel would depend on its neighbours).
 
+use core::ops::Range;
+
+use crate::memory::fill;
+
 /// The 4 x 4 Bayer matrix, `BAYER[y & 3][x & 3]`, 0 - 15.
 pub const BAYER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
@@ -48,18 +52,26 @@ pub trait PixelFormat: Copy + 'static {
     fn rgb565(_row: &mut [Self::Word]) -> Option<&mut [u16]> {
         None
     }
-    /// Visits the depths of columns from `first` on, one for each of `depths`, and stores the pixel where the visitor returns
-    /// one.
+    /// Visits the depths of some columns of a row of `colours` and `depths`, both `width` pixels wide, and stores the pixel where
+    /// the visitor returns one. The visitor's first argument counts from 0.
     #[inline(always)]
     fn visit(
-        row: &mut [Self::Word],
-        first: usize,
+        colours: &mut [Self::Word],
         depths: &mut [u16],
+        (width, row): (usize, usize),
+        columns: Range<usize>,
         mut visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
     ) {
+        let words = Self::words(width);
+        let (Some(colours), Some(depths)) = (
+            colours.get_mut(row * words..(row + 1) * words),
+            depths.get_mut(row * width + columns.start..row * width + columns.end),
+        ) else {
+            return;
+        };
         for (i, depth) in depths.iter_mut().enumerate() {
             if let Some(pixel) = visitor(i, depth) {
-                Self::store(row, first + i, pixel);
+                Self::store(colours, columns.start + i, pixel);
             }
         }
     }
@@ -94,25 +106,9 @@ pub fn widen565(p: u16) -> [u8; 3] {
     [r << 3 | r >> 2, g << 2 | g >> 4, b << 3 | b >> 2]
 }
 
-/// [`PixelFormat::visit`] where a word is a pixel: no bounds to check inside.
-#[inline(always)]
-fn visit_words<P: Copy>(
-    row: &mut [P],
-    first: usize,
-    depths: &mut [u16],
-    mut visitor: impl FnMut(usize, &mut u16) -> Option<P>,
-) {
-    let words = &mut row[first..first + depths.len()];
-    for (i, (word, depth)) in words.iter_mut().zip(depths).enumerate() {
-        if let Some(pixel) = visitor(i, depth) {
-            *word = pixel;
-        }
-    }
-}
-
 /// What all formats share whose words are pixels.
 macro_rules! a_word_is_a_pixel {
-    ($word:ty) => {
+    ($word:ty, $fill:expr) => {
         type Word = $word;
         type Pixel = $word;
 
@@ -129,15 +125,25 @@ macro_rules! a_word_is_a_pixel {
         }
         #[inline(always)]
         fn visit(
-            row: &mut [$word],
-            first: usize,
+            colours: &mut [$word],
             depths: &mut [u16],
-            visitor: impl FnMut(usize, &mut u16) -> Option<$word>,
+            (width, row): (usize, usize),
+            columns: Range<usize>,
+            mut visitor: impl FnMut(usize, &mut u16) -> Option<$word>,
         ) {
-            visit_words(row, first, depths, visitor);
+            let place = row * width + columns.start..row * width + columns.end;
+            if let (Some(colours), Some(depths)) =
+                (colours.get_mut(place.clone()), depths.get_mut(place))
+            {
+                for (i, (colour, depth)) in colours.iter_mut().zip(depths).enumerate() {
+                    if let Some(pixel) = visitor(i, depth) {
+                        *colour = pixel;
+                    }
+                }
+            }
         }
         fn fill(row: &mut [$word], width: usize, pixel: $word) {
-            row[..width].fill(pixel);
+            $fill(&mut row[..width], pixel);
         }
     };
 }
@@ -147,7 +153,7 @@ macro_rules! a_word_is_a_pixel {
 pub enum Rgb888 {}
 
 impl PixelFormat for Rgb888 {
-    a_word_is_a_pixel!([u8; 3]);
+    a_word_is_a_pixel!([u8; 3], <[_]>::fill);
     const ID: u8 = 1;
     const BITS: usize = 24;
 
@@ -173,7 +179,7 @@ impl PixelFormat for Rgb888 {
 pub enum Rgb565 {}
 
 impl PixelFormat for Rgb565 {
-    a_word_is_a_pixel!(u16);
+    a_word_is_a_pixel!(u16, fill);
     const ID: u8 = 2;
     const BITS: usize = 16;
 
@@ -203,7 +209,7 @@ impl PixelFormat for Rgb565 {
 pub enum Rgb332 {}
 
 impl PixelFormat for Rgb332 {
-    a_word_is_a_pixel!(u8);
+    a_word_is_a_pixel!(u8, <[_]>::fill);
     const ID: u8 = 3;
     const BITS: usize = 8;
 

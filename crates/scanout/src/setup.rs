@@ -42,17 +42,17 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// The edge between two points (Q28.4), the inside on its right; `sign` is -1 to turn it round.
-    fn new(from: [i32; 2], to: [i32; 2], sign: i64) -> Edge {
-        let (dx, dy) = (to[0] as i64 - from[0] as i64, to[1] as i64 - from[1] as i64);
-        let (a, b) = (-dy * sign, dx * sign);
+    /// The edge whose inside is on the right of the direction (`dx`, `dy`), from its value `at_centre` of pixel (0, 0) times
+    /// 16.
+    #[inline(always)]
+    fn new([dx, dy]: [i64; 2], at_centre: i64) -> Edge {
+        let (a, b) = (-dy, dx);
         let top_left = a > 0 || (a == 0 && b > 0);
-        let at_centre = a * (8 - from[0] as i64) + b * (8 - from[1] as i64);
         Edge { a, b, k: (at_centre - !top_left as i64) >> 4 }
     }
 
     /// The value at pixel (x, y); inside where not negative.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, x: i32, y: i32) -> i64 {
         self.a * x as i64 + self.b * y as i64 + self.k
     }
@@ -61,20 +61,20 @@ impl Edge {
 /// A triangle ready for the raster stage, and able to make planes.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// The three edges.
-    pub edges: [Edge; 3],
+    /// `v1 - v0` and `v2 - v0`, times the sign of the area.
+    sides: [[i32; 2]; 2],
+    /// The first corner.
+    origin: [i32; 2],
+    /// |A|, 1/256 pixel^2.
+    pub area: i64,
     /// First column and first row whose centres may be covered.
     pub min: [i32; 2],
     /// One past the last column and the last row.
     pub max: [i32; 2],
+    /// The largest size of a coordinate, where it is not small.
+    reach: i32,
     /// Every coordinate is below 2^15 in size: edge values fit 32 bits inside the frame.
     pub small: bool,
-    /// |A|, 1/256 pixel^2.
-    pub area: i64,
-    /// The first corner.
-    origin: [i32; 2],
-    /// The largest size of a coordinate.
-    reach: u32,
 }
 
 /// Twice the area with its sign, 1/256 pixel^2: positive for clockwise corners on the screen. Coordinates within +-2^29.
@@ -93,34 +93,51 @@ pub fn first_pixel(v: i32) -> i32 {
 
 impl Triangle {
     /// Sets up a triangle from its corners, Q28.4, each |coordinate| <= 2^29; `None` when it has no area.
+    #[inline(always)]
     pub fn new(v: [[i32; 2]; 3]) -> Option<Triangle> {
         let area = signed_area(&v);
         if area == 0 {
             return None;
         }
-        let sign = area.signum();
         let low = |i: usize| v[0][i].min(v[1][i]).min(v[2][i]);
         let high = |i: usize| v[0][i].max(v[1][i]).max(v[2][i]);
         let (min, max) = ([low(0), low(1)], [high(0), high(1)]);
-        let reach = (-min[0]).max(-min[1]).max(max[0]).max(max[1]).max(0) as u32;
-        let edges =
-            [Edge::new(v[0], v[1], sign), Edge::new(v[1], v[2], sign), Edge::new(v[2], v[0], sign)];
+        const LIMIT: i32 = (1 << 15) - 1;
+        let small =
+            ((min[0] + LIMIT) | (min[1] + LIMIT) | (LIMIT - max[0]) | (LIMIT - max[1])) >= 0;
+        let reach = if small { 0 } else { (-min[0]).max(-min[1]).max(max[0]).max(max[1]) };
+        let side = |to: [i32; 2]| {
+            let side = [to[0] - v[0][0], to[1] - v[0][1]];
+            if area < 0 { side.map(|d| -d) } else { side }
+        };
         Some(Triangle {
-            edges,
+            sides: [side(v[1]), side(v[2])],
+            origin: v[0],
+            area: area.abs(),
             min: min.map(first_pixel),
             max: max.map(first_pixel),
-            small: reach < 1 << 15,
-            area: area * sign,
-            origin: v[0],
             reach,
+            small,
         })
     }
 
-    /// `v1 - v0` and `v2 - v0`, times the sign of the area: what the first and last edge are made of.
+    /// The three edges.
+    #[inline(always)]
+    pub fn edges(&self) -> [Edge; 3] {
+        let ([d1, d2], o) = (self.sides(), self.offset());
+        // The three edge functions add up to the area everywhere.
+        let first = d1[0] * o[1] - d1[1] * o[0];
+        let last = d2[1] * o[0] - d2[0] * o[1];
+        [
+            Edge::new(d1, first),
+            Edge::new([d2[0] - d1[0], d2[1] - d1[1]], self.area - first - last),
+            Edge::new([-d2[0], -d2[1]], last),
+        ]
+    }
+
     #[inline(always)]
     fn sides(&self) -> [[i64; 2]; 2] {
-        let [first, _, last] = &self.edges;
-        [[first.b, -first.a], [-last.b, last.a]]
+        self.sides.map(|d| d.map(i64::from))
     }
 
     /// From the first corner to the centre of pixel (0, 0).
@@ -135,35 +152,46 @@ impl Triangle {
     /// Cost: two 64-bit divisions and eight multiplications where [`small`](Self::small).
     #[inline]
     pub fn plane(&self, a: [u32; 3]) -> Plane {
-        let (da1, da2) = (a[1] as i64 - a[0] as i64, a[2] as i64 - a[0] as i64);
+        let [plane] = self.planes([a]);
+        plane
+    }
+
+    /// The planes of several attributes: what they share is computed once.
+    #[inline(always)]
+    pub fn planes<const N: usize>(&self, values: [[u32; 3]; N]) -> [Plane; N] {
         if !self.small {
-            return self.wide_plane(a[0], da1, da2);
+            return values.map(|a| self.wide_plane(a));
         }
-        if da1 == 0 && da2 == 0 {
-            return Plane::constant(a[0]);
-        }
+        let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
         let half = self.area >> 1;
         // Floor of n / area: the truncated quotient, less one where the remainder is negative.
         let floor = |n: i64| n / self.area + ((n % self.area) >> 63);
-        let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
-        let gx = floor((da1 * d2[1] - da2 * d1[1]) * 16 + half);
-        let gy = floor((d1[0] * da2 - d2[0] * da1) * 16 + half);
-        let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
-        Plane { c: a[0].wrapping_add((offset >> 4) as u32), gx: gx as u32, gy: gy as u32 }
+        let mut planes = [Plane::default(); N];
+        for (plane, a) in planes.iter_mut().zip(&values) {
+            let (da1, da2) = (a[1] as i64 - a[0] as i64, a[2] as i64 - a[0] as i64);
+            let gx = floor((da1 * d2[1] - da2 * d1[1]) * 16 + half);
+            let gy = floor((d1[0] * da2 - d2[0] * da1) * 16 + half);
+            let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
+            *plane =
+                Plane { c: a[0].wrapping_add((offset >> 4) as u32), gx: gx as u32, gy: gy as u32 };
+        }
+        planes
     }
 
     /// The same for corners far outside the screen.
     #[cold]
-    fn wide_plane(&self, a0: u32, da1: i64, da2: i64) -> Plane {
+    #[inline(never)]
+    fn wide_plane(&self, a: [u32; 3]) -> Plane {
         let e = (32 - (self.reach >> 4).leading_zeros()).saturating_sub(11);
         let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
+        let (da1, da2) = (a[1] as i64 - a[0] as i64, a[2] as i64 - a[0] as i64);
         let gx = self.long_quotient(da1 * d2[1] - da2 * d1[1], 4 + e);
         let gy = self.long_quotient(d1[0] * da2 - d2[0] * da1, 4 + e);
         // All that is asked for lies within the lowest 64 bits.
         let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
         let half = (1i64 << e) >> 1;
         Plane {
-            c: a0.wrapping_add((offset >> (4 + e)) as u32),
+            c: a[0].wrapping_add((offset >> (4 + e)) as u32),
             gx: (gx.wrapping_add(half) >> e) as u32,
             gy: (gy.wrapping_add(half) >> e) as u32,
         }
@@ -194,7 +222,7 @@ impl Triangle {
     /// Whether the centre of pixel (x, y) is covered.
     #[inline]
     pub fn covers(&self, x: i32, y: i32) -> bool {
-        self.edges.iter().all(|edge| edge.at(x, y) >= 0)
+        self.edges().iter().all(|edge| edge.at(x, y) >= 0)
     }
 }
 

@@ -387,7 +387,7 @@ mod tests {
                 }
                 let at = (left.min(WIDTH - STRIP as i32), top);
                 assert_eq!(got.x[i], at.0);
-                for (edge, planes) in t.edges.iter().zip(&got.edges) {
+                for (edge, planes) in t.edges().iter().zip(&got.edges) {
                     assert_eq!(planes.start[i] as i64, edge.at(at.0, at.1));
                     assert_eq!([planes.gx[i], planes.gy[i]].map(i64::from), [edge.a, edge.b]);
                 }
@@ -402,8 +402,11 @@ mod tests {
                 let uv = [0, 1, 2].map(|k| uvs[3 * i + k]);
                 let setup = TextureSetup::new(&t, &texture, uv, q);
                 for axis in 0..2 {
-                    same(&got.st[axis], i, &setup.st[axis], at, 0);
-                    assert_eq!(got.shift[axis][i] as u32, setup.shift[axis] + SUBTEXEL_BITS);
+                    same(&got.st[axis], i, &setup.perspective.st[axis], at, 0);
+                    assert_eq!(
+                        got.shift[axis][i] as u32,
+                        setup.perspective.shift[axis] + SUBTEXEL_BITS
+                    );
                 }
             }
         }

@@ -19,7 +19,7 @@ use crate::raster::point::draw_point;
 use crate::raster::smooth_line::{SmoothEnd, walk_smooth};
 use crate::scene::{Mode, Object};
 use crate::setup::Triangle;
-use crate::texture::{General, Repeat565, Texture, TextureSetup};
+use crate::texture::{General, Repeat565, Texture};
 use crate::transform::{Vertex, Viewport, common_inverse_w};
 
 impl<'a> Frame<'a> {
@@ -61,7 +61,8 @@ impl<'a> Frame<'a> {
                 Some(source) if target.pixels().is_some() => {
                     self.draw_groups(&source, run, &mut lights, &mut target);
                 }
-                _ => {
+                Some(source) => self.draw_plain(&source, run, &mut lights, &mut target),
+                None => {
                     let rows = target.rows.clone();
                     for primitive in run.iter().filter(|p| p.touches(&rows)) {
                         self.draw_primitive(primitive, &mut lights, &mut target);
@@ -72,7 +73,7 @@ impl<'a> Frame<'a> {
         Ok(())
     }
 
-    /// What eight triangles at a time are made from, for objects that can be drawn so.
+    /// What triangles are made from, of objects whose triangles are all made alike.
     fn source<F: PixelFormat>(&self, object: u16, target: &Target<F>) -> Option<Source<'a>> {
         let first_vertex = self.objects[object as usize].first_vertex as usize;
         let object = &self.scene.objects[object as usize];
@@ -99,6 +100,70 @@ impl<'a> Frame<'a> {
         })
     }
 
+    /// Draws primitives of one object one by one: how their triangles are made is decided here, once.
+    fn draw_plain<F: PixelFormat>(
+        &self,
+        source: &Source,
+        run: &[Primitive],
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+    ) {
+        let uv = |index: usize| -> [[i32; 2]; 3] {
+            let corners = source.uv_triangles.get(index).copied().unwrap_or_default();
+            corners.map(|i| source.uvs.get(i as usize).copied().unwrap_or_default())
+        };
+        let q = |v: &[&Vertex; 3]| common_inverse_w(*v).0;
+        match (source.gouraud, source.texture) {
+            (false, None) => self.draw_alike(source, run, lights, target, |t, v, primitive| {
+                (t.plane(v.map(|v| v.z)), Flat(primitive.rgb))
+            }),
+            (true, None) => {
+                self.draw_alike(source, run, lights, target, |t, v, _| shaded(t, v));
+            }
+            (false, Some(sampler)) => {
+                self.draw_alike(source, run, lights, target, |t, v, primitive| {
+                    let (z, inner) = (t.plane(v.map(|v| v.z)), Flat(primitive.rgb));
+                    let uv = uv(primitive.index as usize);
+                    (z, Textured::new(t, inner, sampler, uv, q(v)))
+                });
+            }
+            (true, Some(sampler)) => {
+                self.draw_alike(source, run, lights, target, |t, v, primitive| {
+                    let (z, inner) = shaded(t, v);
+                    let uv = uv(primitive.index as usize);
+                    (z, Textured::new(t, inner, sampler, uv, q(v)))
+                });
+            }
+        }
+    }
+
+    /// Draws primitives of one object, whose plain ones `make` turns into depth and a shader.
+    #[inline(never)]
+    fn draw_alike<F: PixelFormat, S: Shader>(
+        &self,
+        source: &Source,
+        run: &[Primitive],
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+        make: impl Fn(&Triangle, &[&Vertex; 3], &Primitive) -> (Plane, S),
+    ) {
+        let rows = target.rows.clone();
+        for primitive in run.iter().filter(|p| p.touches(&rows)) {
+            let indices = source.triangles.get(primitive.index as usize);
+            let corners = indices.map(|t| t.map(|i| source.vertices.get(i as usize)));
+            if source.is_plain(primitive.tag)
+                && let Some([Some(a), Some(b), Some(c)]) = corners
+            {
+                if let Some(t) = Triangle::new([[a.x, a.y], [b.x, b.y], [c.x, c.y]]) {
+                    let (z, shader) = make(&t, &[a, b, c], primitive);
+                    target.fill(&t, &z, &shader);
+                }
+            } else {
+                self.draw_primitive(primitive, lights, target);
+            }
+        }
+    }
+
     /// Draws primitives of one object in groups of eight.
     fn draw_groups<F: PixelFormat>(
         &self,
@@ -116,9 +181,7 @@ impl<'a> Frame<'a> {
             let (mut count, mut plain) = (0, 0u32);
             for (slot, primitive) in group.iter_mut().zip(&mut touching) {
                 *slot = primitive;
-                let is_plain =
-                    primitive.tag == Primitive::PLAIN || (primitive.tag == BACK && !source.gouraud);
-                plain |= (is_plain as u32) << count;
+                plain |= (source.is_plain(primitive.tag) as u32) << count;
                 count += 1;
             }
             if count == 0 {
@@ -206,6 +269,22 @@ impl<'a> Frame<'a> {
             Kind::Point if features::POINTS => painter.point(target),
             Kind::Edge | Kind::Point => {}
         }
+    }
+}
+
+/// Depth and colours through three vertices.
+#[inline(always)]
+fn shaded(t: &Triangle, v: &[&Vertex; 3]) -> (Plane, Gouraud) {
+    let [r, g, b] = Gouraud::values(v.map(|v| v.rgb));
+    let [z, r, g, b] = t.planes([v.map(|v| v.z), r, g, b]);
+    (z, Gouraud::of([r, g, b]))
+}
+
+impl Source<'_> {
+    /// Whether a primitive of this tag is made as all of its object: neither clipped nor to be lit from behind.
+    #[inline(always)]
+    fn is_plain(&self, tag: u8) -> bool {
+        tag == Primitive::PLAIN || (tag == BACK && !self.gouraud)
     }
 }
 
@@ -349,16 +428,13 @@ impl<'f> Painter<'f> {
             Some(texture) => {
                 let (q, _) = common_inverse_w(v);
                 let uv = [0, 1, 2].map(|k| self.uv(corners, k));
-                let setup = TextureSetup::new(t, texture, uv, q);
-                let q = t.plane(q.map(|q| q << 8));
-                let inner = shader;
                 match Repeat565::new(texture) {
                     Some(sampler) => {
-                        self.fog(t, v, z, Textured { inner, sampler, setup, q }, target);
+                        self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
                     }
                     None if features::ALL_TEXTURES => {
-                        let sampler = General;
-                        self.fog(t, v, z, Textured { inner, sampler, setup, q }, target);
+                        let sampler = General(texture);
+                        self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
                     }
                     None => {}
                 }

@@ -4,13 +4,13 @@
 //! adds a gradient modulo 2^32, which is exactly the plane's value at the next pixel; a row always begins from the plane,
 //! so nothing remembers where it has been.
 
-use crate::interpolate::{Plane, channel};
+use crate::interpolate::Plane;
 use crate::lanes::{LANES, U16x8, U32x8};
 use crate::light::Lighting;
 use crate::math::normalise_q14;
 use crate::setup::Triangle;
 use crate::shade::{FogWeights, blend, modulate};
-use crate::texture::{Sampler, TextureSetup, integer_q, reciprocal};
+use crate::texture::{Sampler, integer_q, reciprocal};
 
 /// Colours of fragments.
 pub(super) trait Shader {
@@ -80,12 +80,23 @@ impl Shader for Flat {
     }
 }
 
-/// Colours interpolated linearly on the screen.
+/// Colours interpolated linearly on the screen; half a level is added to the planes, so that the whole levels of their values
+/// are rounded to nearest.
 pub(super) struct Gouraud([Plane; 3]);
 
 impl Gouraud {
     pub(super) fn new(t: &Triangle, rgb: [[u8; 3]; 3]) -> Gouraud {
-        Gouraud([0, 1, 2].map(|i| t.plane([0, 1, 2].map(|k: usize| (rgb[k][i] as u32) << 16))))
+        Gouraud::of(t.planes(Gouraud::values(rgb)))
+    }
+    /// What its planes go through.
+    #[inline(always)]
+    pub(super) fn values(rgb: [[u8; 3]; 3]) -> [[u32; 3]; 3] {
+        [0, 1, 2].map(|i: usize| rgb.map(|rgb| (rgb[i] as u32) << 16))
+    }
+    /// From planes through its [`values`](Self::values).
+    #[inline(always)]
+    pub(super) fn of(planes: [Plane; 3]) -> Gouraud {
+        Gouraud(planes.map(|plane| Plane { c: plane.c.wrapping_add(0x8000), ..plane }))
     }
 }
 
@@ -108,11 +119,11 @@ impl Shader for Gouraud {
     }
     #[inline(always)]
     fn colour(&self, pixel: &[u32; 3]) -> [u8; 3] {
-        pixel.map(channel)
+        pixel.map(|value| (value >> 16) as u8)
     }
     #[inline(always)]
     fn ramps(&self) -> [U32x8; 3] {
-        [0, 1, 2].map(|i: usize| U32x8::ramp(0x8000, self.0[i].gx))
+        [0, 1, 2].map(|i: usize| U32x8::ramp(0, self.0[i].gx))
     }
     #[inline(always)]
     fn side_by_side(&self, ramps: &[U32x8; 3], pixel: &[u32; 3], _pass: u32) -> [U16x8; 3] {
@@ -122,14 +133,22 @@ impl Shader for Gouraud {
 }
 
 /// Another shader's colour times a texel.
-pub(super) struct Textured<'a, S, T> {
+pub(super) struct Textured<S, T: Sampler> {
     pub inner: S,
     pub sampler: T,
-    pub setup: TextureSetup<'a>,
+    pub setup: T::Setup,
     pub q: Plane,
 }
 
-impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
+impl<S: Shader, T: Sampler> Textured<S, T> {
+    /// From three corners' texture coordinates and 1/w.
+    #[inline(always)]
+    pub(super) fn new(t: &Triangle, inner: S, sampler: T, uv: [[i32; 2]; 3], q: [u32; 3]) -> Self {
+        Textured { inner, sampler, setup: sampler.setup(t, uv, q), q: t.plane(q.map(|q| q << 8)) }
+    }
+}
+
+impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
     /// The inner shader's, 1/w, s/w and t/w.
     type Pixel = (S::Pixel, u32, [u32; 2]);
     type Ramps = (S::Ramps, [U32x8; 3]);
@@ -137,17 +156,19 @@ impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
 
     #[inline(always)]
     fn at(&self, x: i32, y: i32) -> Self::Pixel {
-        let [s, t] = &self.setup.st;
+        let [s, t] = &T::perspective(&self.setup).st;
         (self.inner.at(x, y), self.q.at(x, y), [s.at(x, y), t.at(x, y)])
     }
     #[inline(always)]
     fn step(&self, (inner, q, [s, t]): Self::Pixel, count: u32) -> Self::Pixel {
-        let st = [step(&self.setup.st[0], s, count), step(&self.setup.st[1], t, count)];
+        let planes = &T::perspective(&self.setup).st;
+        let st = [step(&planes[0], s, count), step(&planes[1], t, count)];
         (self.inner.step(inner, count), step(&self.q, q, count), st)
     }
     #[inline(always)]
     fn down(&self, (inner, q, [s, t]): Self::Pixel) -> Self::Pixel {
-        let st = [down(&self.setup.st[0], s), down(&self.setup.st[1], t)];
+        let planes = &T::perspective(&self.setup).st;
+        let st = [down(&planes[0], s), down(&planes[1], t)];
         (self.inner.down(inner), down(&self.q, q), st)
     }
     #[inline(always)]
@@ -157,7 +178,7 @@ impl<S: Shader, T: Sampler> Shader for Textured<'_, S, T> {
     }
     #[inline(always)]
     fn ramps(&self) -> Self::Ramps {
-        let [s, t] = &self.setup.st;
+        let [s, t] = &T::perspective(&self.setup).st;
         (self.inner.ramps(), [&self.q, s, t].map(|plane| U32x8::ramp(0, plane.gx)))
     }
     #[inline(always)]

@@ -9,9 +9,10 @@ use crate::depth;
 use crate::features;
 use crate::interpolate::Plane;
 use crate::lanes::{self, LANES, U16x8, U32x8};
+use crate::memory;
 use crate::output::{PixelFormat, Rgb565};
 use crate::raster::line::{ClipRect, Field, LineEnd, fill_cells};
-use crate::raster::triangle::{Run, spans, tiles};
+use crate::raster::triangle::{Run, Runs, tiles};
 use crate::scene::Background;
 use crate::setup::{Edge, Triangle};
 use crate::shade::blend;
@@ -111,7 +112,7 @@ impl<F: PixelFormat> Target<'_, F> {
     pub(super) fn clear(&mut self, background: &Background) {
         match self.avx2() {
             Some(avx2) => avx2.fill(self.depth, depth::FAR),
-            None => self.depth.fill(depth::FAR),
+            None => memory::fill(self.depth, depth::FAR),
         }
         if let (Background::Colour(rgb), Some((avx2, pixels))) = (background, self.pixels()) {
             return avx2.fill(pixels.colours, Rgb565::encode(*rgb));
@@ -145,50 +146,76 @@ impl<F: PixelFormat> Target<'_, F> {
         }
     }
 
-    /// Walks a triangle's covered pixels.
-    #[inline]
-    fn runs(&mut self, t: &Triangle, mut batch: impl FnMut(&mut Self, &[Run])) {
-        let (rows, width) = (self.rows.clone(), self.width as i32);
-        match self.traversal {
-            Traversal::Tiles if features::TILES => {
-                tiles(t, rows, width, &mut |runs| batch(self, runs))
-            }
-            _ => spans(t, rows, width, &mut |runs| batch(self, runs)),
-        }
+    /// A triangle's covered pixels in some columns, row by row.
+    #[inline(always)]
+    fn runs<'t>(&self, t: &'t Triangle, columns: Range<i32>) -> Runs<'t> {
+        Runs::either(
+            t,
+            self.rows.clone(),
+            columns,
+            features::TILES && self.traversal == Traversal::Tiles,
+        )
     }
 
     /// Depth, shade, output: a triangle's fragments.
+    #[inline(always)]
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
+        if features::TILES && self.traversal == Traversal::Tiles {
+            return self.fill_tiles(t, z, shader);
+        }
+        let columns = 0..self.width as i32;
         if features::DITHER && self.dither {
-            self.runs(t, |target, runs| target.fill_runs::<S, true>(z, shader, runs));
+            self.fill_runs::<S, true>(t, z, shader, columns);
         } else if lanes::AVAILABLE
             && self.traversal != Traversal::Pixels
             && S::SIDE_BY_SIDE
             && F::rgb565(&mut []).is_some()
         {
-            if self.traversal != Traversal::Tiles && self.width >= LANES && t.is_tiny() {
-                return self.fill_strips(t, z, shader);
+            if self.width >= LANES && t.is_tiny() {
+                self.fill_strips(t, z, shader);
+            } else {
+                self.fill_side_by_side(t, z, shader);
             }
-            self.runs(t, |target, runs| target.fill_side_by_side(z, shader, runs));
         } else {
-            self.runs(t, |target, runs| target.fill_runs::<S, false>(z, shader, runs));
+            self.fill_runs::<S, false>(t, z, shader, columns);
         }
     }
 
-    /// The fragments of some runs, one after another.
+    /// The same tile by tile.
+    #[cold]
+    fn fill_tiles<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
+        for columns in tiles(t, self.width as i32) {
+            if features::DITHER && self.dither {
+                self.fill_runs::<S, true>(t, z, shader, columns);
+            } else {
+                self.fill_runs::<S, false>(t, z, shader, columns);
+            }
+        }
+    }
+
+    /// The fragments of some columns one after another.
     #[inline(never)]
-    fn fill_runs<S: Shader, const DITHER: bool>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
+    fn fill_runs<S: Shader, const DITHER: bool>(
+        &mut self,
+        t: &Triangle,
+        z: &Plane,
+        shader: &S,
+        columns: Range<i32>,
+    ) {
         let constant =
             F::encode(if S::CONSTANT { shader.colour(&shader.at(0, 0)) } else { [0; 3] });
-        for run in runs.iter().filter(|run| run.x0 < run.x1) {
-            let (row, depths) = self.row(run.y);
-            let depths = &mut depths[run.x0 as usize..run.x1 as usize];
-            let mut value = z.at(run.x0, run.y);
-            let mut pixel = shader.at(run.x0, run.y);
-            F::visit(row, run.x0 as usize, depths, |i, stored| {
-                let colour = depth::test(stored, depth::round(value)).then(|| {
+        let z = depth::biased(z);
+        let (top, width) = (self.rows.start, self.width);
+        for Run { y, x0, x1 } in self.runs(t, columns) {
+            if x0 >= x1 {
+                continue;
+            }
+            let (mut value, mut pixel) = (z.at(x0, y), shader.at(x0, y));
+            let (place, columns) = ((width, (y - top) as usize), x0 as usize..x1 as usize);
+            F::visit(self.colour, self.depth, place, columns, |i, stored| {
+                let colour = depth::test(stored, depth::whole(value)).then(|| {
                     if DITHER {
-                        F::encode_dithered(shader.colour(&pixel), run.x0 + i as i32, run.y)
+                        F::encode_dithered(shader.colour(&pixel), x0 + i as i32, y)
                     } else if S::CONSTANT {
                         constant
                     } else {
@@ -210,13 +237,14 @@ impl<F: PixelFormat> Target<'_, F> {
         let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
         let (first, last) = (t.min[0].max(0), t.max[0].min(width as i32));
         let (z_ramp, ramps) = (U32x8::ramp(0x8000, z.gx), shader.ramps());
+        let all = t.edges();
         let mut left = first;
         while left < last && top < bottom {
             // At the right border the strip begins further left: what is drawn twice is not nearer the second time.
             let x = left.min((width - LANES) as i32);
             let edge = |e: &Edge| U16x8::ramp(e.at(x, top) as u16, e.a as u16);
-            let mut edges = t.edges.each_ref().map(edge);
-            let down = t.edges.each_ref().map(|e| U16x8::splat(e.b as u16));
+            let mut edges = all.each_ref().map(edge);
+            let down = all.each_ref().map(|e| U16x8::splat(e.b as u16));
             let (mut value, mut pixel) = (z.at(x, top), shader.at(x, top));
             let mut at = (top - rows.start) as usize * width + x as usize;
             for _ in top..bottom {
@@ -239,11 +267,12 @@ impl<F: PixelFormat> Target<'_, F> {
 
     /// [`fill_runs`](Self::fill_runs) eight pixels at a time where the row has room for them, RGB565 only.
     #[inline(never)]
-    fn fill_side_by_side<S: Shader>(&mut self, z: &Plane, shader: &S, runs: &[Run]) {
+    fn fill_side_by_side<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
         let (top, width) = (self.rows.start, self.width);
+        let runs = self.runs(t, 0..width as i32);
         let Some(colours) = F::rgb565(self.colour) else { return };
         let (z_ramp, ramps) = (U32x8::ramp(0x8000, z.gx), shader.ramps());
-        for run in runs.iter().filter(|run| run.x0 < run.x1) {
+        for run in runs.filter(|run| run.x0 < run.x1) {
             let row = (run.y - top) as usize * width;
             let here = row + run.x0 as usize..row + width;
             let (eights, rest) = colours[here.clone()].as_chunks_mut::<LANES>();
@@ -280,18 +309,16 @@ impl<F: PixelFormat> Target<'_, F> {
     pub(super) fn mask(&mut self, t: &Triangle, z: &Plane) {
         let slope = (z.gx as i32).unsigned_abs().max((z.gy as i32).unsigned_abs());
         let bias = slope.min(2048 << 16) + (2 << 16);
-        self.runs(t, |target, runs| {
-            for run in runs.iter().filter(|run| run.x0 < run.x1) {
-                let (_, depths) = target.row(run.y);
-                let mut value = z.at(run.x0, run.y);
-                for stored in &mut depths[run.x0 as usize..run.x1 as usize] {
-                    // Rounding may leave a value just below 0, which wraps to the top.
-                    let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
-                    depth::test(stored, pushed as u16);
-                    value = value.wrapping_add(z.gx);
-                }
+        for run in self.runs(t, 0..self.width as i32).filter(|run| run.x0 < run.x1) {
+            let (_, depths) = self.row(run.y);
+            let mut value = z.at(run.x0, run.y);
+            for stored in &mut depths[run.x0 as usize..run.x1 as usize] {
+                // Rounding may leave a value just below 0, which wraps to the top.
+                let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
+                depth::test(stored, pushed as u16);
+                value = value.wrapping_add(z.gx);
             }
-        });
+        }
     }
 
     /// Edges of one colour without depth, the quick way; false where the format or dither forbids it.

@@ -31,7 +31,7 @@ pub const fn isqrt32(n: u32) -> u16 {
 #[inline(never)]
 pub const fn isqrt64(n: u64) -> u32 {
     // The highest even power of two in n; 1 for 0.
-    let (mut rest, mut root, mut bit) = (n, 0u64, 1u64 << (63 - (n | 1).leading_zeros() & !1));
+    let (mut rest, mut root, mut bit) = (n, 0u64, 1u64 << ((63 - (n | 1).leading_zeros()) & !1));
     while bit != 0 {
         if rest >= root + bit {
             rest -= root + bit;

@@ -1,94 +1,20 @@
 //! Triangles to pixels: two traversals of the same exact edge functions.
 //!
-//! [`spans`] solves each row's ends. For an edge `a x + b y + k >= 0` with `f(y) = floor((b y + k) / |a|)`:
+//! [`Runs::spans`] solves each row's ends. The edge `a x + b y + k >= 0` crosses row y at `X(y) = -(b y + k) / a`:
 //!
 //! ```text
-//!   a > 0 (left edge):   x >= -f(y)             first column = max of -f over left edges
-//!   a < 0 (right edge):  x <=  f(y)             last column  = min of  f over right edges
+//!   a > 0 (left edge):   x >= X(y)             first column = max of ceil(X) over left edges
+//!   a < 0 (right edge):  x <= X(y)             last column  = min of floor(X) over right edges
 //!   a = 0:               decided by the box
 //! ```
 //!
-//! `f` is carried from row to row exactly, so a band may begin at any row. [`tiles`] walks 8 x 8 tiles and tests the edges at every
-//! pixel. Both emit the same pixels; `rows` and `width` only cut.
+//! `X` is carried from row to row exactly, so a band may begin at any row. [`Runs::tested`] tests the edges at every pixel, [`tiles`]
+//! column after column. Both give the same pixels; `rows` and `width` only cut.
 //!
 //! Cost of a row: three additions and five comparisons; six divisions a triangle.
 
 use crate::setup::{Edge, Triangle};
 use core::ops::Range;
-
-/// `f(y) = floor((b y + k) / |a|)` of an edge, from row to row.
-trait Bound: Copy {
-    /// At row `y`.
-    fn new(edge: &Edge, y: i32) -> Self;
-    /// To the next row.
-    fn advance(&mut self);
-    /// The value, within +-2^29.
-    fn floor(&self) -> i32;
-}
-
-/// For [`small`](Triangle::small) triangles: the quotient with 32 fraction bits, rounded down, and a bias of 2^-18.
-///
-/// Over at most 2^12 rows the rounded step falls behind by less than 2^-19, so the sum lies above the quotient by at most 2^-18; and a
-/// quotient that is not an integer stays at least `1 / |a| >= 2^-16` below the next. So the integer part is exact.
-#[derive(Clone, Copy)]
-struct SmallBound {
-    f: i64,
-    step: i64,
-}
-
-impl Bound for SmallBound {
-    #[inline(always)]
-    fn new(edge: &Edge, y: i32) -> Self {
-        let d = edge.a.abs();
-        let n = edge.b * y as i64 + edge.k;
-        // The remainder of a truncating division is made up for by one unit of 2^-32 less.
-        let quotient = |n: i64| (n << 32) / d - (n < 0) as i64;
-        SmallBound { f: quotient(n) + (1 << 14), step: quotient(edge.b) }
-    }
-    #[inline(always)]
-    fn advance(&mut self) {
-        self.f += self.step;
-    }
-    #[inline(always)]
-    fn floor(&self) -> i32 {
-        (self.f >> 32) as i32
-    }
-}
-
-/// For any triangle: quotient and remainder.
-#[derive(Clone, Copy)]
-struct WideBound {
-    f: i64,
-    remainder: i64,
-    step: i64,
-    step_remainder: i64,
-    d: i64,
-}
-
-impl Bound for WideBound {
-    fn new(edge: &Edge, y: i32) -> Self {
-        let d = edge.a.abs();
-        let n = edge.b * y as i64 + edge.k;
-        WideBound {
-            f: n.div_euclid(d),
-            remainder: n.rem_euclid(d),
-            step: edge.b.div_euclid(d),
-            step_remainder: edge.b.rem_euclid(d),
-            d,
-        }
-    }
-    fn advance(&mut self) {
-        self.f += self.step;
-        self.remainder += self.step_remainder;
-        if self.remainder >= self.d {
-            self.remainder -= self.d;
-            self.f += 1;
-        }
-    }
-    fn floor(&self) -> i32 {
-        self.f.clamp(-(1 << 29), 1 << 29) as i32
-    }
-}
 
 /// A run of covered pixels in one row: columns `x0..x1`; none where `x0 >= x1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -101,78 +27,164 @@ pub struct Run {
     pub x1: i32,
 }
 
-/// How many runs are handed over at once: enough for most triangles, small enough for a small stack.
-pub const BATCH: usize = 16;
+/// Where an edge of a [`small`](Triangle::small) triangle crosses a row, `-(b y + k) / a`, from row to row, with 32 fraction bits.
+///
+/// Over at most 2^12 rows quotients that were cut off stray by less than 2^-19, so with a bias of 2^-18 the sum lies to the wanted
+/// side of the true place by at most 2^-17; and a place that is not a pixel's stays at least `1 / |a| >= 2^-16` away from the
+/// next. So what is rounded is exact.
+#[derive(Clone, Copy)]
+struct Crossing {
+    x: i64,
+    step: i64,
+    /// The covered pixels lie to the right.
+    left: bool,
+}
 
-/// Gives the runs of a triangle row by row, from the top, in batches; only `rows` and columns `0..width`.
-pub fn spans(t: &Triangle, rows: Range<i32>, width: i32, emit: &mut dyn FnMut(&[Run])) {
-    if t.small {
-        solve::<SmallBound>(t, rows, width, emit);
-    } else {
-        solve::<WideBound>(t, rows, width, emit);
+impl Crossing {
+    #[inline(always)]
+    fn new(edge: &Edge, y: i32) -> Self {
+        const BIAS: i64 = 1 << 14;
+        // What a horizontal edge gives is not used.
+        let (d, left) = (edge.a + (edge.a == 0) as i64, edge.a > 0);
+        let n = edge.b * y as i64 + edge.k;
+        // The whole part of the sum is the first column of the run, or the one past the last.
+        let round = if left { (1 << 32) - 1 - BIAS } else { (1 << 32) + BIAS };
+        Crossing { x: round - (n << 32) / d, step: -((edge.b << 32) / d), left }
     }
 }
 
-#[inline(always)]
-fn solve<B: Bound>(t: &Triangle, rows: Range<i32>, width: i32, emit: &mut dyn FnMut(&[Run])) {
-    let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
-    if top >= bottom || t.max[0] <= 0 || t.min[0] >= width {
-        return;
+/// The runs of a triangle, one for each row from the top.
+pub struct Runs<'t> {
+    triangle: &'t Triangle,
+    /// Of the edge that is alone on its side, then of the two of the other side.
+    crossings: [Crossing; 3],
+    way: Way,
+    /// The next row.
+    y: i32,
+    bottom: i32,
+    left: i32,
+    right: i32,
+}
+
+/// How a row's ends are found.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// By crossings that go from row to row.
+    Solved,
+    /// By divisions.
+    Divided,
+    /// By a test at every pixel.
+    Tested,
+}
+
+/// The side of a tile.
+const SIDE: i32 = 8;
+
+/// The columns of the tiles that a triangle touches, from the left, between columns 0 and `width`.
+pub fn tiles(t: &Triangle, width: i32) -> impl Iterator<Item = Range<i32>> + use<> {
+    let (first, end) = (t.min[0].max(0), t.max[0].min(width));
+    let columns = (first & !(SIDE - 1)..end).step_by(SIDE as usize);
+    columns.map(move |left| left.max(first)..end.min(left + SIDE))
+}
+
+impl<'t> Runs<'t> {
+    /// By crossings of the edges; only `rows` and `columns`.
+    #[inline(always)]
+    pub fn spans(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>) -> Runs<'t> {
+        Runs::new(t, rows, columns, if t.small { Way::Solved } else { Way::Divided })
     }
-    // A triangle with area has a left and a right edge and, unless one is horizontal, a second on one side.
-    let [e, f, g] = &t.edges;
-    let (lone, first, second) = if e.a == 0 {
-        (f, g, g)
-    } else if f.a == 0 {
-        (g, e, e)
-    } else if g.a == 0 {
-        (e, f, f)
-    } else if (f.a ^ g.a) >= 0 {
-        (e, f, g)
-    } else if (e.a ^ g.a) >= 0 {
-        (f, g, e)
-    } else {
-        (g, e, f)
-    };
-    let pair_left = first.a > 0;
-    let mut lone = B::new(lone, top);
-    let mut first = B::new(first, top);
-    let mut second = B::new(second, top);
-    let mut runs = [Run::default(); BATCH];
-    let mut y = top;
-    while y < bottom {
-        let mut count = 0;
-        for slot in runs.iter_mut().take((bottom - y) as usize) {
-            let (f, g) = (lone.floor(), first.floor().min(second.floor()));
-            let (left, right) = if pair_left { (g, f) } else { (f, g) };
-            *slot = Run { y, x0: (-left).max(0), x1: (right + 1).min(width) };
-            count += 1;
-            y += 1;
-            lone.advance();
-            first.advance();
-            second.advance();
+
+    /// The same by a test at every pixel.
+    #[inline(always)]
+    pub fn tested(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>) -> Runs<'t> {
+        Runs::new(t, rows, columns, Way::Tested)
+    }
+
+    /// One or the other.
+    #[inline(always)]
+    pub(crate) fn either(
+        t: &'t Triangle,
+        rows: Range<i32>,
+        columns: Range<i32>,
+        tested: bool,
+    ) -> Runs<'t> {
+        let spans = if t.small { Way::Solved } else { Way::Divided };
+        Runs::new(t, rows, columns, if tested { Way::Tested } else { spans })
+    }
+
+    #[inline(always)]
+    fn new(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>, way: Way) -> Runs<'t> {
+        let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
+        let (left, right) = (t.min[0].max(columns.start), t.max[0].min(columns.end));
+        let mut crossings = [Crossing { x: 0, step: 0, left: false }; 3];
+        if way == Way::Solved {
+            let [e, f, g] = t.edges();
+            let all = [Crossing::new(&e, top), Crossing::new(&f, top), Crossing::new(&g, top)];
+            // A triangle with area has a left and a right edge and, unless one is horizontal, a second on one side.
+            let order: [usize; 3] = if e.a == 0 {
+                [1, 2, 2]
+            } else if f.a == 0 {
+                [2, 0, 0]
+            } else if g.a == 0 {
+                [0, 1, 1]
+            } else if (f.a ^ g.a) >= 0 {
+                [0, 1, 2]
+            } else if (e.a ^ g.a) >= 0 {
+                [1, 2, 0]
+            } else {
+                [2, 0, 1]
+            };
+            crossings = [all[order[0]], all[order[1]], all[order[2]]];
         }
-        emit(&runs[..count]);
+        let bottom = if left < right { bottom } else { top };
+        Runs { triangle: t, crossings, way, y: top, bottom, left, right }
     }
 }
 
-/// Gives the same pixels tile by tile (8 x 8 pixels, rows of tiles from the top, tiles from the left).
-pub fn tiles(t: &Triangle, rows: Range<i32>, width: i32, emit: &mut dyn FnMut(&[Run])) {
-    const SIDE: i32 = 8;
-    let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
-    let (first, last) = (t.min[0].max(0), t.max[0].min(width));
-    let align = |v: i32| v & !(SIDE - 1);
-    for tile_y in (align(top)..bottom).step_by(SIDE as usize) {
-        for tile_x in (align(first)..last).step_by(SIDE as usize) {
-            for y in tile_y.max(top)..(tile_y + SIDE).min(bottom) {
-                let inside = |x: &i32| t.covers(*x, y);
-                let columns = tile_x.max(first)..(tile_x + SIDE).min(last);
-                if let Some(x0) = columns.clone().find(inside) {
-                    let x1 = (x0..columns.end).find(|x| !inside(x)).unwrap_or(columns.end);
-                    emit(&[Run { y, x0, x1 }]);
-                }
+/// The ends of row `y` between two columns, from the edges alone.
+#[cold]
+#[inline(never)]
+fn ends(t: &Triangle, y: i32, [mut x0, mut x1]: [i32; 2], way: Way) -> [i32; 2] {
+    if way == Way::Tested {
+        while x0 < x1 && !t.covers(x0, y) {
+            x0 += 1;
+        }
+        x1 = (x0..x1).find(|&x| !t.covers(x, y)).unwrap_or(x1);
+    } else {
+        for edge in t.edges().iter().filter(|edge| edge.a != 0) {
+            let f = (edge.b * y as i64 + edge.k).div_euclid(edge.a.abs()).clamp(-1 << 29, 1 << 29);
+            if edge.a > 0 { x0 = x0.max(-f as i32) } else { x1 = x1.min(f as i32 + 1) }
+        }
+    }
+    [x0, x1]
+}
+
+impl Iterator for Runs<'_> {
+    type Item = Run;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Run> {
+        if self.y >= self.bottom {
+            return None;
+        }
+        let y = self.y;
+        let [x0, x1] = if self.way == Way::Solved {
+            let [lone, first, second] = &mut self.crossings;
+            let one = (lone.x >> 32) as i32;
+            let [x0, x1] = if lone.left {
+                [one, (first.x.min(second.x) >> 32) as i32]
+            } else {
+                [(first.x.max(second.x) >> 32) as i32, one]
+            };
+            for crossing in [lone, first, second] {
+                crossing.x += crossing.step;
             }
-        }
+            [x0.max(self.left), x1.min(self.right)]
+        } else {
+            ends(self.triangle, y, [self.left, self.right], self.way)
+        };
+        self.y = y + 1;
+        Some(Run { y, x0, x1 })
     }
 }
 
@@ -184,18 +196,18 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    type Traversal = fn(&Triangle, Range<i32>, i32, &mut dyn FnMut(&[Run]));
-    const SPANS: Traversal = spans;
-    const TILES: Traversal = tiles;
+    type Traversal = fn(&Triangle, Range<i32>, i32) -> Vec<Run>;
+    const SPANS: Traversal = |t, rows, width| Runs::spans(t, rows, 0..width).collect();
+    const TILES: Traversal = |t, rows, width| {
+        tiles(t, width).flat_map(|columns| Runs::tested(t, rows.clone(), columns)).collect()
+    };
 
     fn count(v: [[i32; 2]; 3], size: i32, traverse: Traversal) -> Vec<u8> {
         let mut pixels = vec![0u8; (size * size) as usize];
         if let Some(t) = Triangle::new(v) {
-            traverse(&t, 0..size, size, &mut |runs| {
-                for run in runs {
-                    (run.x0..run.x1).for_each(|x| pixels[(run.y * size + x) as usize] += 1)
-                }
-            });
+            for run in traverse(&t, 0..size, size) {
+                (run.x0..run.x1).for_each(|x| pixels[(run.y * size + x) as usize] += 1)
+            }
         }
         pixels
     }

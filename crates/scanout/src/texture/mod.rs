@@ -24,7 +24,9 @@
 
 mod perspective;
 
-pub use perspective::{General, Repeat565, Sampler, TextureSetup, integer_q, reciprocal};
+pub use perspective::{
+    General, Perspective, Repeat565, Sampler, TextureSetup, integer_q, reciprocal,
+};
 
 use crate::output::widen565;
 

@@ -8,15 +8,22 @@ use crate::interpolate::Plane;
 use crate::output::widen565;
 use crate::setup::Triangle;
 
-/// A triangle's texture coordinates, ready for every pixel.
-#[derive(Clone, Copy, Debug)]
-pub struct TextureSetup<'a> {
-    /// The texture.
-    pub texture: &'a Texture<'a>,
+/// A triangle's texture coordinates over w, ready for every pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Perspective {
     /// s/w and t/w, block floating point.
     pub st: [Plane; 2],
     /// Shifts that bring `plane * r` to 1/4096 texel.
     pub shift: [u32; 2],
+}
+
+/// A triangle's texture coordinates, ready for every pixel of any texture.
+#[derive(Clone, Copy, Debug)]
+pub struct TextureSetup<'a> {
+    /// The texture.
+    pub texture: &'a Texture<'a>,
+    /// The planes.
+    pub perspective: Perspective,
     /// Whole texels of level 0 to add: what was taken off before the division to keep numbers small.
     pub base: [i32; 2],
     /// Mip thresholds: level l or more where `q < thresholds[l - 1]`; 0 beyond the last level.
@@ -69,42 +76,53 @@ pub fn integer_q(plane_value: u32) -> u32 {
     (plane_value >> 8).max(1)
 }
 
+/// Distances in a texture of `size` from the whole repeats below the least texture coordinate, 1/4096 texel rounded to
+/// nearest, [0, 2^38); and those repeats.
+#[inline(always)]
+fn local(uv: [[i32; 2]; 3], size: [u32; 2]) -> ([[u64; 3]; 2], [i32; 2]) {
+    let repeats = [0, 1].map(|axis: usize| uv[0][axis].min(uv[1][axis]).min(uv[2][axis]) >> 16);
+    let local = [0, 1].map(|axis: usize| {
+        uv.map(|uv| {
+            let u = uv[axis] as i64 - ((repeats[axis] as i64) << 16);
+            ((u * size[axis] as i64 + 8) >> (16 - SUBTEXEL_BITS)) as u64
+        })
+    });
+    (local, repeats)
+}
+
+impl Perspective {
+    /// From the corners' places in the texture, 1/4096 texel below 2^38, and their 1/w (integers, the largest in [2^22, 2^23)).
+    #[inline(always)]
+    fn new(t: &Triangle, local: &[[u64; 3]; 2], q: [u32; 3]) -> Perspective {
+        let mut shift = [0; 2];
+        let values = [0, 1].map(|axis: usize| {
+            let products = [0, 1, 2].map(|i: usize| local[axis][i] * q[i] as u64);
+            // The largest has the leading one of all of them together.
+            let drop = 33 - (products[0] | products[1] | products[2]).leading_zeros().min(33);
+            shift[axis] = 47 - drop;
+            products.map(|p| ((p + ((1 << drop) >> 1)) >> drop) as u32)
+        });
+        Perspective { st: t.planes(values), shift }
+    }
+}
+
 impl<'a> TextureSetup<'a> {
     /// Sets a triangle's texture up from its corners' texture coordinates (Q16.16) and 1/w (integers, the largest in
     /// [2^22, 2^23)).
     pub fn new(t: &Triangle, texture: &'a Texture<'a>, uv: [[i32; 2]; 3], q: [u32; 3]) -> Self {
-        let size = [texture.width, texture.height].map(i64::from);
-        let mut setup = TextureSetup {
-            texture,
-            st: [Plane::default(); 2],
-            shift: [47; 2],
-            base: [0; 2],
-            thresholds: [0; MAX_LEVELS as usize - 1],
+        let size = [texture.width, texture.height].map(u32::from);
+        let (local, repeats) = local(uv, size);
+        let base = [0, 1].map(|axis: usize| match texture.wrap[axis] {
+            Wrap::Repeat => 0,
+            Wrap::Mirror => (repeats[axis] & 1) * size[axis] as i32,
+            Wrap::Clamp | Wrap::Border => repeats[axis] * size[axis] as i32,
+        });
+        let thresholds = if texture.levels > 1 {
+            thresholds(t, &local, q, texture.levels)
+        } else {
+            [0; MAX_LEVELS as usize - 1]
         };
-        // Distances from the base in 1/4096 texel, rounded to nearest: [0, 2^38).
-        let mut local = [[0i64; 2]; 3];
-        for axis in 0..2 {
-            let low = uv[0][axis].min(uv[1][axis]).min(uv[2][axis]);
-            let repeats = low >> 16;
-            setup.base[axis] = match texture.wrap[axis] {
-                Wrap::Repeat => 0,
-                Wrap::Mirror => (repeats & 1) * size[axis] as i32,
-                Wrap::Clamp | Wrap::Border => repeats * size[axis] as i32,
-            };
-            for corner in 0..3 {
-                let u = uv[corner][axis] as i64 - ((repeats as i64) << 16);
-                local[corner][axis] = (u * size[axis] + 8) >> (16 - SUBTEXEL_BITS);
-            }
-            let products = [0, 1, 2].map(|i| local[i][axis] as u64 * q[i] as u64);
-            let largest = products[0].max(products[1]).max(products[2]);
-            let drop = (64 - largest.leading_zeros()).saturating_sub(31);
-            setup.shift[axis] = 47 - drop;
-            setup.st[axis] = t.plane(products.map(|p| ((p + ((1 << drop) >> 1)) >> drop) as u32));
-        }
-        if texture.levels > 1 {
-            setup.thresholds = thresholds(t, &local, q, texture.levels);
-        }
-        setup
+        TextureSetup { texture, perspective: Perspective::new(t, &local, q), base, thresholds }
     }
 
     /// Where a pixel lies in the texture, 1/4096 texel of level 0: from the values of its planes and the reciprocal of its
@@ -113,7 +131,8 @@ impl<'a> TextureSetup<'a> {
     pub fn locate(&self, st: [u32; 2], r: u64) -> [i64; 2] {
         [0, 1].map(|i| {
             let product = (st[i] as u64).wrapping_mul(r);
-            let sub = product.wrapping_add(1 << (self.shift[i] - 1)) >> self.shift[i];
+            let shift = self.perspective.shift[i];
+            let sub = product.wrapping_add(1 << (shift - 1)) >> shift;
             sub as i64 + ((self.base[i] as i64) << SUBTEXEL_BITS)
         })
     }
@@ -129,22 +148,37 @@ impl<'a> TextureSetup<'a> {
 }
 
 /// A way to fetch texels: the general one, or one that knows more about its texture and gives the same.
-pub trait Sampler {
+pub trait Sampler: Copy {
+    /// What it needs of a triangle.
+    type Setup: Copy;
     /// Texels can be had as they are stored, RGB565.
     const RGB565: bool = false;
+    /// Sets a triangle up, as [`TextureSetup::new`].
+    fn setup(&self, t: &Triangle, uv: [[i32; 2]; 3], q: [u32; 3]) -> Self::Setup;
+    /// The planes of a triangle.
+    fn perspective(setup: &Self::Setup) -> &Perspective;
     /// The texel as it is stored, where it is RGB565; `texel` is this, widened.
-    fn texel565(&self, _setup: &TextureSetup, _st: [u32; 2], _r: u64) -> u16 {
+    fn texel565(&self, _setup: &Self::Setup, _st: [u32; 2], _r: u64) -> u16 {
         0
     }
     /// The texel of a pixel from the values of its s/w and t/w planes, its 1/w and the reciprocal of that.
-    fn texel(&self, setup: &TextureSetup, st: [u32; 2], q: u32, r: u64) -> [u8; 3];
+    fn texel(&self, setup: &Self::Setup, st: [u32; 2], q: u32, r: u64) -> [u8; 3];
 }
 
 /// Any texture.
 #[derive(Clone, Copy, Debug)]
-pub struct General;
+pub struct General<'a>(pub &'a Texture<'a>);
 
-impl Sampler for General {
+impl<'a> Sampler for General<'a> {
+    type Setup = TextureSetup<'a>;
+
+    fn setup(&self, t: &Triangle, uv: [[i32; 2]; 3], q: [u32; 3]) -> TextureSetup<'a> {
+        TextureSetup::new(t, self.0, uv, q)
+    }
+    #[inline(always)]
+    fn perspective<'s>(setup: &'s TextureSetup<'a>) -> &'s Perspective {
+        &setup.perspective
+    }
     #[inline]
     fn texel(&self, setup: &TextureSetup, st: [u32; 2], q: u32, r: u64) -> [u8; 3] {
         let [s, t] = setup.locate(st, r);
@@ -170,7 +204,7 @@ impl<'a> Repeat565<'a> {
         plain.then_some(Repeat565 { texels, size })
     }
 
-    /// The texel as it is stored, from the shifts of a [`TextureSetup`].
+    /// The texel as it is stored, from the shifts of a [`Perspective`].
     #[inline(always)]
     pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
         let [x, y] = [0, 1].map(|i| {
@@ -185,13 +219,24 @@ impl<'a> Repeat565<'a> {
 }
 
 impl Sampler for Repeat565<'_> {
+    type Setup = Perspective;
     const RGB565: bool = true;
+
     #[inline(always)]
-    fn texel565(&self, setup: &TextureSetup, st: [u32; 2], r: u64) -> u16 {
+    fn setup(&self, t: &Triangle, uv: [[i32; 2]; 3], q: [u32; 3]) -> Perspective {
+        let (local, _) = local(uv, self.size.map(|size| size as u32));
+        Perspective::new(t, &local, q)
+    }
+    #[inline(always)]
+    fn perspective(setup: &Perspective) -> &Perspective {
+        setup
+    }
+    #[inline(always)]
+    fn texel565(&self, setup: &Perspective, st: [u32; 2], r: u64) -> u16 {
         self.at(setup.shift, st, r)
     }
     #[inline(always)]
-    fn texel(&self, setup: &TextureSetup, st: [u32; 2], _q: u32, r: u64) -> [u8; 3] {
+    fn texel(&self, setup: &Perspective, st: [u32; 2], _q: u32, r: u64) -> [u8; 3] {
         widen565(self.texel565(setup, st, r))
     }
 }
@@ -200,11 +245,11 @@ impl Sampler for Repeat565<'_> {
 /// one by the factor `2^(-2/3)` = 41285 / 65536.
 fn thresholds(
     t: &Triangle,
-    st: &[[i64; 2]; 3],
+    st: &[[u64; 3]; 2],
     q: [u32; 3],
     levels: u8,
 ) -> [u32; MAX_LEVELS as usize - 1] {
-    let d = |i: usize, axis: usize| (st[i][axis] - st[0][axis]) as i128;
+    let d = |i: usize, axis: usize| st[axis][i] as i128 - st[axis][0] as i128;
     // 1/2^24 texel^2 against 1/2^8 pixel^2.
     let texture_area = (d(1, 0) * d(2, 1) - d(2, 0) * d(1, 1)).unsigned_abs();
     let cube = q.iter().map(|&q| q as u128).product::<u128>();
@@ -311,13 +356,15 @@ mod tests {
         let fast = Repeat565::new(texture).unwrap();
         for case in cases() {
             let Some(t) = Triangle::new(case.v) else { continue };
-            let setup = TextureSetup::new(&t, texture, case.uv, q_of(case.w));
+            let any = General(texture);
+            let (setup, lean) =
+                (any.setup(&t, case.uv, q_of(case.w)), fast.setup(&t, case.uv, q_of(case.w)));
             let mut value = 1u32;
             for i in 0..200u32 {
                 value = value.wrapping_mul(1664525).wrapping_add(1013904223);
                 let (st, q) = ([value >> 1, (value ^ i << 9) >> 1], (value >> 9).max(1));
                 let r = reciprocal(q);
-                assert_eq!(fast.texel(&setup, st, q, r), General.texel(&setup, st, q, r));
+                assert_eq!(fast.texel(&lean, st, q, r), any.texel(&setup, st, q, r));
             }
         }
     }
@@ -336,7 +383,7 @@ mod tests {
             for y in (t.min[1]..t.max[1]).step_by(5) {
                 for x in (t.min[0]..t.max[0]).step_by(5).filter(|&x| t.covers(x, y)) {
                     let q = integer_q(q_plane.at(x, y));
-                    let st = [0, 1].map(|i| setup.st[i].at(x, y));
+                    let st = setup.perspective.st.map(|plane| plane.at(x, y));
                     let ([s, _], level) = (setup.locate(st, reciprocal(q)), setup.level(q));
                     let (st, area) = exact(&case, [256.0, 128.0], x as f64, y as f64);
                     let got = s as f64 / 4096.0;
