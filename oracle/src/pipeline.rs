@@ -125,8 +125,8 @@ impl Renderer for Pipeline {
         let plane = prepared.plane(q.map(|q| q << 8));
         self.draw(triangle, |_, x, y| {
             let q = integer_q(plane.at(x, y));
-            let st = setup.st.map(|plane| plane.at(x, y));
-            let colour = General.texel(&setup, st, q, reciprocal(q));
+            let st = setup.perspective.st.map(|plane| plane.at(x, y));
+            let colour = General(&texels).texel(&setup, st, q, reciprocal(q));
             texture.texel(colour).expect("a colour of the texture")
         })
     }
