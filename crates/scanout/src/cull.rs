@@ -46,7 +46,7 @@ pub fn facing_in_clip_space(c: &[[i32; 4]; 3]) -> Facing {
 
 /// Whether a bounding sphere lies wholly outside one of the view volume's planes.
 pub fn sphere_outside(m: &ClipMatrix, sphere: &Sphere) -> bool {
-    let centre = m.apply(sphere.centre);
+    let centre = m.apply_one(sphere.centre);
     // Each plane is `row . p >= 0` with row = w + x, w - x, w + y, w - y, z, w - z; those that most often decide first.
     [(2, 1, 0), (0, 1, 1), (0, -1, 1), (1, 1, 1), (1, -1, 1), (2, -1, 1)]
         .iter()

@@ -46,6 +46,7 @@ pub struct ClipMatrix {
 }
 
 /// `v 2^-shift` rounded to nearest; `shift` may be negative.
+#[inline(never)]
 fn scale(v: i64, shift: i32) -> i32 {
     if shift > 0 { ((v >> (shift - 1)).wrapping_add(1) >> 1) as i32 } else { (v << -shift) as i32 }
 }
@@ -60,6 +61,12 @@ impl ClipMatrix {
             .fold(1, u64::max);
         let exponent = (64 - norm.leading_zeros()) as i32 - 30;
         ClipMatrix { m: object_to_clip.m.map(|row| row.map(|v| scale(v, exponent))), exponent }
+    }
+
+    /// [`apply`](Self::apply) for what is rarely done: a call instead of the code.
+    #[inline(never)]
+    pub(crate) fn apply_one(&self, p: [i16; 3]) -> [i32; 4] {
+        self.apply(p)
     }
 
     /// The clip coordinates x, y, z, w of a position. Cost: twelve 32 x 16 bit multiplications.
@@ -137,6 +144,12 @@ impl Viewport {
             flags |= GUARD;
         }
         flags
+    }
+
+    /// [`project`](Self::project) for what is rarely done: a call instead of the code.
+    #[inline(never)]
+    pub(crate) fn project_one(&self, c: &[i32; 4]) -> Vertex {
+        self.project(c)
     }
 
     /// Projects clip coordinates. Where a clip flag is set only the flags mean anything.

@@ -17,7 +17,6 @@ use player::scene::{self, HEIGHT, Model, Placement, TURN, WIDTH};
 use scanout::frame::{Frame, ObjectState, Primitive, Settings, Store};
 use scanout::hash::{FORMAT_RGB565, FrameHash};
 use scanout::math::Q16;
-use scanout::output::Rgb565;
 use scanout::transform::Vertex;
 use scanout_assets::bake::{Aligned, read};
 
@@ -100,7 +99,7 @@ fn turn(
             let size = usize::from(lines) * usize::from(WIDTH);
             let (colour, depth) = (&mut colour[..size], &mut depth[..size]);
             for top in (0..HEIGHT).step_by(lines.into()) {
-                frame.draw_rows::<Rgb565>(top..top + lines, colour, depth).ok()?;
+                frame.draw_rows_rgb565(top..top + lines, colour, depth).ok()?;
                 count += counter::since(before);
                 for pixel in &*colour {
                     hash.update(&pixel.to_be_bytes());

@@ -43,6 +43,9 @@ pub trait Card: BlockDevice {
     fn fault(error: &Self::Error) -> CardFault;
 }
 
+/// Takes the bytes of a file; breaks off when it has enough.
+pub type Sink<'s> = &'s mut dyn FnMut(&[u8]) -> Result<ControlFlow<()>, Fault>;
+
 /// What reading cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
@@ -272,11 +275,7 @@ impl<C: Card> Files<'_, '_, C> {
     ///
     /// # Errors
     /// The card's and the file system's; `sink`'s; [`Fault::Empty`] for a file without a byte.
-    pub fn read(
-        &self,
-        path: &str,
-        mut sink: impl FnMut(&[u8]) -> Result<ControlFlow<()>, Fault>,
-    ) -> Result<u32, Fault> {
+    pub fn read(&self, path: &str, sink: Sink<'_>) -> Result<u32, Fault> {
         let told = |error| told_as(error, self.failed, path);
         let mut parts = path.split('/').filter(|part| !part.is_empty()).peekable();
         let mut folder = self.root.open_dir(ShortFileName::this_dir()).map_err(told)?;

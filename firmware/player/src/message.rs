@@ -2,15 +2,13 @@
 //!
 //! 6 x 10 pixels a letter, white on dark blue, wrapped at words: 51 letters a line on 320 pixels.
 
-use embedded_graphics::mono_font::MonoTextStyle;
+use embedded_graphics::geometry::{OriginDimensions, Point};
+use embedded_graphics::image::GetPixel;
 use embedded_graphics::mono_font::ascii::FONT_6X10;
-use embedded_graphics::pixelcolor::Rgb565;
-use embedded_graphics::prelude::*;
-use embedded_graphics::text::{Baseline, Text};
+use embedded_graphics::pixelcolor::BinaryColor;
 use heapless::String;
 use scanout_display::band::SendError;
 use scanout_display::flush::{BlockingInterface, flush};
-use scanout_display::target::BandTarget;
 use scanout_display::window::Area;
 
 /// Longest message in bytes; more is cut.
@@ -21,6 +19,10 @@ const STEP: (u16, u16) = (6, 12);
 const MARGIN: u16 = 6;
 /// Behind the letters.
 const PAPER: u16 = 0x0008;
+/// Of the heading's letters.
+const TITLE: u16 = 0xffe0;
+/// Of the message's letters.
+const INK: u16 = 0xffff;
 
 /// A message being written.
 pub type Words = String<LENGTH>;
@@ -46,36 +48,63 @@ pub fn show<I: BlockingInterface>(
         let rows = lines.min(area.height - top);
         let band = &mut colour[..usize::from(rows) * width];
         band.fill(PAPER);
-        write(&mut BandTarget::new(band, (area.width, area.height), top), heading, message);
+        Rows { pixels: &mut *band, width: area.width, top }.write(heading, message);
         flush(interface, area, top, band)?;
         top += rows;
     }
     Ok(())
 }
 
-fn write(target: &mut BandTarget<'_>, heading: &str, message: &str) {
-    let (style, title) = (
-        MonoTextStyle::new(&FONT_6X10, Rgb565::WHITE),
-        MonoTextStyle::new(&FONT_6X10, Rgb565::YELLOW),
-    );
-    let letters = usize::from((target.size().width as u16).saturating_sub(2 * MARGIN) / STEP.0);
-    let (rows, mut y) = (target.rows(), MARGIN);
-    let mut line = |text: &str, style| {
-        // Only what touches the band.
-        if y + STEP.1 > rows.start && y < rows.end {
-            let place = Point::new(MARGIN.into(), y.into());
-            // A band cannot fail.
-            let _ = Text::with_baseline(text, place, style, Baseline::Top).draw(target);
+/// Rows of the area, `width` pixels each, from row `top` on.
+struct Rows<'b> {
+    pixels: &'b mut [u16],
+    width: u16,
+    top: u16,
+}
+
+impl Rows<'_> {
+    /// The heading and the message, as far as they touch these rows.
+    fn write(&mut self, heading: &str, message: &str) {
+        let letters = usize::from(self.width.saturating_sub(2 * MARGIN) / STEP.0);
+        let mut y = MARGIN;
+        self.line(heading, y, TITLE);
+        y += STEP.1;
+        wrap(message, letters, &mut |text| {
+            y = y.saturating_add(STEP.1);
+            self.line(text, y, INK);
+        });
+    }
+
+    /// A line of letters, its highest row at `y`. Letter by letter and pixel by pixel: that is small, and a message may take its
+    /// time.
+    fn line(&mut self, text: &str, y: u16, ink: u16) {
+        let size = FONT_6X10.character_size;
+        let per_row = FONT_6X10.image.size().width / size.width;
+        for (place, letter) in text.chars().enumerate() {
+            // What is not ASCII is a question mark.
+            let code = if matches!(letter, ' '..='~') { u32::from(letter) } else { 0x3f } - 0x20;
+            let glyph = (code % per_row * size.width, code / per_row * size.height);
+            let left = usize::from(MARGIN) + place * usize::from(STEP.0);
+            for (row, column) in
+                (0..size.height).flat_map(|row| (0..size.width).map(move |column| (row, column)))
+            {
+                let dot = Point::new((glyph.0 + column) as i32, (glyph.1 + row) as i32);
+                let x = left + column as usize;
+                let below = (usize::from(y) + row as usize).checked_sub(self.top.into());
+                if let Some(below) = below
+                    && x < self.width.into()
+                    && let Some(pixel) = self.pixels.get_mut(below * usize::from(self.width) + x)
+                    && FONT_6X10.image.pixel(dot) == Some(BinaryColor::On)
+                {
+                    *pixel = ink;
+                }
+            }
         }
-        y = y.saturating_add(STEP.1);
-    };
-    line(heading, title);
-    line("", style);
-    wrap(message, letters, |text| line(text, style));
+    }
 }
 
 /// Cuts a text into lines of at most `letters` letters, at spaces where there are any.
-fn wrap(text: &str, letters: usize, mut line: impl FnMut(&str)) {
+fn wrap(text: &str, letters: usize, line: &mut dyn FnMut(&str)) {
     for paragraph in text.split('\n') {
         let mut rest = paragraph;
         while let Some((end, _)) = rest.char_indices().nth(letters) {
@@ -97,7 +126,7 @@ mod tests {
 
     fn lines(text: &str, letters: usize) -> Vec<std::string::String> {
         let mut lines = Vec::new();
-        wrap(text, letters, |line| lines.push(line.into()));
+        wrap(text, letters, &mut |line| lines.push(line.into()));
         lines
     }
 

@@ -342,20 +342,26 @@ impl State<'_, '_> {
                 1 << 32
             } else {
                 // Half the side / 10^6 * 32768 / 32760, Q32.32.
-                ratio(i128::from(side) << 47, 2_000_000 * i128::from(RANGE))
+                ratio(side, 47, 2_000_000 * RANGE)
             },
             offset: core::array::from_fn(|i| {
                 let (low, high) = ends(i);
-                ratio(i128::from(low + high) << 32, 2_000_000)
+                ratio(low + high, 32, 2_000_000)
             }),
         };
         Ok(Built { totals, placement, flat: self.flat, textured: self.textured })
     }
 }
 
-/// Nearest, halves upwards.
-fn ratio(numerator: i128, denominator: i128) -> i64 {
-    (2 * numerator + denominator).div_euclid(2 * denominator) as i64
+/// `n 2^up / d`, nearest, halves upwards: a division, then a bit a step. `n` and `d` below 2^61, the result below 2^63.
+fn ratio(n: i64, up: u32, d: i64) -> i64 {
+    let (mut quotient, mut rest) = (n.div_euclid(d), n.rem_euclid(d));
+    for _ in 0..up {
+        rest *= 2;
+        let next = i64::from(rest >= d);
+        (quotient, rest) = (2 * quotient + next, rest - next * d);
+    }
+    quotient + i64::from(2 * rest >= d)
 }
 
 /// `32760 twice / side`, the nearest, halves away from zero.
@@ -371,18 +377,18 @@ fn on_grid(twice: i64, side: i64) -> i16 {
 
 /// A decimal number in millionths, the nearest; `None` beyond 2,000.
 fn millionths(number: Number) -> Option<i32> {
-    let exponent = number.exponent + 6;
-    let value = match exponent {
-        // More than the clamp below allows, unless the mantissa is 0.
-        10.. => i128::from(number.mantissa) * 10_000_000_000,
-        0.. => i128::from(number.mantissa) * 10i128.pow(exponent as u32),
-        // |mantissa| < 10^18, so this rounds to zero.
-        ..=-20 => 0,
-        _ => {
-            let power = 10i128.pow(exponent.unsigned_abs());
-            (2 * i128::from(number.mantissa) + power).div_euclid(2 * power)
-        }
-    };
+    let (mut value, mut half) = (number.mantissa, false);
+    for _ in 0..(number.exponent + 6).clamp(0, 10) {
+        // Beyond 2^31 already, which more digits don't change.
+        value = if value.abs() > FAR { value } else { 10 * value };
+    }
+    // Floor by floor is the floor of the whole; what decides the rounding is the last digit taken off and nothing below it,
+    // as halves go upwards. |mantissa| < 10^18, so 20 digits leave nothing.
+    for _ in (number.exponent + 6).clamp(-20, 0)..0 {
+        half = value.rem_euclid(10) >= 5;
+        value = value.div_euclid(10);
+    }
+    value += i64::from(half);
     i32::try_from(value).ok().filter(|v| i64::from(*v).abs() <= FAR)
 }
 

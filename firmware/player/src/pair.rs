@@ -21,7 +21,6 @@ use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
 use scanout::frame::{BandError, DrawError, Frame};
-use scanout::output::Rgb565;
 use scanout_display::band::SendError;
 use scanout_display::flush::{BlockingInterface, flush};
 use scanout_display::window::Area;
@@ -225,7 +224,7 @@ pub fn relay<I: BlockingInterface<Error: Send> + Send>(
             // A band is drawn even after a failure: the other hart waits for its turn.
             let result = slots[band % 2].take(band / 2 * 2, |colour| {
                 let colour = &mut colour[..rows.len() * width];
-                frame.draw_rows::<Rgb565>(rows, colour, depth)
+                frame.draw_rows_rgb565(rows, colour, depth)
             });
             drawn = drawn.and(result);
         }
@@ -268,7 +267,7 @@ pub fn both<I: BlockingInterface<Error: Send> + Send>(
         for band in (first..bands).step_by(2) {
             let rows = rows(band, lines, height);
             let colour = &mut colour[..rows.len() * width];
-            drawn = drawn.and(frame.draw_rows::<Rgb565>(rows.clone(), colour, depth));
+            drawn = drawn.and(frame.draw_rows_rgb565(rows.clone(), colour, depth));
             bus.take(band, |(interface, sent)| {
                 if sent.is_ok() {
                     *sent = flush(*interface, area, rows.start, colour);

@@ -215,7 +215,7 @@ fn told<B: Board>(board: &mut B, memory: &mut Memory<'_>, display: bool, fault: 
 fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Result<Loaded, Fault> {
     let mut bytes = 0;
     let (mut text, mut length) = ([0; 1024], 0);
-    let read = files.read("show.txt", |chunk| {
+    let read = files.read("show.txt", &mut |chunk| {
         let room = text.get_mut(length..length + chunk.len());
         let room = room.ok_or(Fault::Show { line: 1, what: "longer than 1024 bytes" })?;
         room.copy_from_slice(chunk);
@@ -236,7 +236,7 @@ fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Resu
         ObjError::Model(fault) => Fault::Model(path(), fault),
     };
     let mut reader = ObjReader::new(memory);
-    bytes += files.read(&show.model, |chunk| {
+    bytes += files.read(&show.model, &mut |chunk| {
         reader.feed(chunk).map_err(told)?;
         Ok(ControlFlow::Continue(()))
     })?;
@@ -267,7 +267,7 @@ fn texture<C: Card>(
         PpmError::Model(fault) => Fault::Model(path(), fault),
     };
     let mut reader = PpmReader::new(memory.texels);
-    let bytes = files.read(&show.texture, |chunk| {
+    let bytes = files.read(&show.texture, &mut |chunk| {
         reader.feed(chunk).map_err(told)?;
         Ok(if reader.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     })?;

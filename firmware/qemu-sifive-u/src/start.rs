@@ -91,10 +91,12 @@ extern "C" fn fault(cause: usize, at: usize, value: usize) -> ! {
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
+    let _ = Console.write_str("panic");
     // The place alone: the message would draw in formatting of everything.
-    if let Some(place) = info.location() {
-        let _ = writeln!(Console, "panic: {}:{}", place.file(), place.line());
+    if let (true, Some(place)) = (cfg!(feature = "locations"), info.location()) {
+        let _ = write!(Console, ": {}:{}", place.file(), place.line());
     }
+    let _ = Console.write_str("\n");
     exit(1)
 }
 

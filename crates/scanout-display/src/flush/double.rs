@@ -19,7 +19,6 @@ use core::pin::pin;
 use core::task::Poll;
 
 use scanout::frame::{DrawError, Frame};
-use scanout::output::Rgb565;
 
 use super::{AsyncInterface, fits, lines_of, open, window_of, wire_bytes};
 use crate::band::SendError;
@@ -64,7 +63,7 @@ impl<'m> DoubleBuffer<'m> {
             let bottom = height.min(top.saturating_add(lines));
             let length = (bottom - top) as usize * width as usize;
             let band = &mut colour[..length];
-            frame.draw_rows::<Rgb565>(top..bottom, band, depth)?;
+            frame.draw_rows_rgb565(top..bottom, band, depth)?;
             on_top(&mut BandTarget::new(band, (width, height), top));
             Ok((bottom, length))
         };

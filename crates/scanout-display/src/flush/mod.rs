@@ -23,7 +23,6 @@ use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 
 use scanout::frame::{BandError, DrawError, Frame};
-use scanout::output::Rgb565;
 
 pub use double::DoubleBuffer;
 
@@ -163,7 +162,7 @@ pub fn show<I: BlockingInterface>(
     while top < height {
         let bottom = height.min(top.saturating_add(lines));
         let band = &mut colour[..(bottom - top) as usize * width as usize];
-        frame.draw_rows::<Rgb565>(top..bottom, band, depth).map_err(DrawError::Band)?;
+        frame.draw_rows_rgb565(top..bottom, band, depth).map_err(DrawError::Band)?;
         on_top(&mut BandTarget::new(band, (width, height), top));
         flush(interface, area, top, band).map_err(DrawError::Sink)?;
         top = bottom;

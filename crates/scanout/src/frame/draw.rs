@@ -13,7 +13,7 @@ use crate::features;
 use crate::interpolate::Plane;
 use crate::light::Lighting;
 use crate::mesh::Normals;
-use crate::output::PixelFormat;
+use crate::output::{PixelFormat, Rgb565};
 use crate::raster::line::{LineEnd, walk};
 use crate::raster::point::draw_point;
 use crate::raster::smooth_line::{SmoothEnd, walk_smooth};
@@ -71,6 +71,20 @@ impl<'a> Frame<'a> {
             }
         }
         Ok(())
+    }
+
+    /// [`draw_rows`](Self::draw_rows) for RGB565, compiled with this crate instead of with its caller: so a program that is
+    /// optimised for size can have it fast, by its profile for the package `scanout`.
+    ///
+    /// # Errors
+    /// As [`draw_rows`](Self::draw_rows).
+    pub fn draw_rows_rgb565(
+        &self,
+        rows: Range<u16>,
+        colour: &mut [u16],
+        depth: &mut [u16],
+    ) -> Result<(), BandError> {
+        self.draw_rows::<Rgb565>(rows, colour, depth)
     }
 
     /// What triangles are made from, of objects whose triangles are all made alike.
@@ -324,7 +338,7 @@ impl<'f> Painter<'f> {
         let corners = polygon.corners();
         for i in 2..corners.len() {
             let fan = [corners[0], corners[i - 1], corners[i]];
-            let vertices = fan.map(|c| Vertex { rgb: c.rgb, ..viewport.project(&c.clip) });
+            let vertices = fan.map(|c| Vertex { rgb: c.rgb, ..viewport.project_one(&c.clip) });
             if let Some(t) = Triangle::new(vertices.each_ref().map(|v| [v.x, v.y])) {
                 self.paint(&t, vertices.each_ref(), &Corners::Clipped(&fan), target);
             }
@@ -356,7 +370,7 @@ impl<'f> Painter<'f> {
         let (mesh, index) = (self.object.mesh, self.primitive.index as usize);
         let position = mesh.positions[i as usize];
         let mut corner = Corner {
-            clip: self.state.clip.apply(position),
+            clip: self.state.clip.apply_one(position),
             rgb: self.vertices[i as usize].rgb,
             uv: self.mesh_uv(k),
             ..Corner::default()
@@ -489,12 +503,12 @@ impl<'f> Painter<'f> {
             let settings = self.frame.settings;
             let viewport = Viewport::new(settings.width, settings.height);
             let corner = |i: u16| Corner {
-                clip: self.state.clip.apply(self.object.mesh.positions[i as usize]),
+                clip: self.state.clip.apply_one(self.object.mesh.positions[i as usize]),
                 rgb: surface_colour(self.object, i),
                 ..Corner::default()
             };
             let Some(clipped) = clip::line(corner(edge[0]), corner(edge[1])) else { return };
-            ends = clipped.map(|c| Vertex { rgb: c.rgb, ..viewport.project(&c.clip) });
+            ends = clipped.map(|c| Vertex { rgb: c.rgb, ..viewport.project_one(&c.clip) });
         }
         let hidden = self.object.mode == Mode::Hidden;
         let clip = target.clip_rect();

@@ -442,7 +442,7 @@ impl ObjectPass<'_> {
             list.stats.outside += 1;
             return;
         }
-        let corners = triangle.map(|c| self.clip.apply(mesh.positions[c as usize]));
+        let corners = triangle.map(|c| self.clip.apply_one(mesh.positions[c as usize]));
         let facing = facing_in_clip_space(&corners);
         if facing == Facing::Edge || (facing == Facing::Back && self.one_sided()) {
             list.stats.back_facing += 1;
@@ -564,7 +564,7 @@ impl ObjectPass<'_> {
         if a.flags & b.flags & (NEAR | FAR) == 0 {
             let ends = if clipped {
                 clip::line(self.corner(edge[0]), self.corner(edge[1]))
-                    .map(|ends| ends.map(|c| self.viewport.project(&c.clip)))
+                    .map(|ends| ends.map(|c| self.viewport.project_one(&c.clip)))
             } else {
                 Some([*a, *b])
             };
@@ -595,7 +595,7 @@ impl ObjectPass<'_> {
     }
 
     fn corner(&self, index: u16) -> Corner {
-        let clip = self.clip.apply(self.object.mesh.positions[index as usize]);
+        let clip = self.clip.apply_one(self.object.mesh.positions[index as usize]);
         Corner { clip, ..Corner::default() }
     }
 
@@ -608,7 +608,7 @@ impl ObjectPass<'_> {
         }
         let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
         for corner in corners {
-            let v = self.viewport.project(&corner.clip);
+            let v = self.viewport.project_one(&corner.clip);
             low = [low[0].min(v.x), low[1].min(v.y)];
             high = [high[0].max(v.x), high[1].max(v.y)];
         }

@@ -221,6 +221,7 @@ impl Mat4 {
 }
 
 /// `n 2^-down`, nearest; below 2^41.
+#[inline(never)]
 const fn at_40_bits(n: i64, down: i32) -> i64 {
     if down <= 0 { n << -down } else { (n >> down) + ((n >> (down - 1)) & 1) }
 }

@@ -4,6 +4,7 @@
 //! corners' 1/w and scales each of the two products by a power of two to fill 31 bits (block floating point).
 
 use super::{Filter, MAX_LEVELS, SUBTEXEL_BITS, Texels, Texture, Wrap};
+use crate::features;
 use crate::interpolate::Plane;
 use crate::output::widen565;
 use crate::setup::Triangle;
@@ -117,7 +118,7 @@ impl<'a> TextureSetup<'a> {
             Wrap::Mirror => (repeats[axis] & 1) * size[axis] as i32,
             Wrap::Clamp | Wrap::Border => repeats[axis] * size[axis] as i32,
         });
-        let thresholds = if texture.levels > 1 {
+        let thresholds = if features::ALL_TEXTURES && texture.levels > 1 {
             thresholds(t, &local, q, texture.levels)
         } else {
             [0; MAX_LEVELS as usize - 1]
