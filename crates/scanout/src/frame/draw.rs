@@ -127,7 +127,7 @@ impl<'a> Frame<'a> {
             corners.map(|i| source.uvs.get(i as usize).copied().unwrap_or_default())
         };
         let q = |v: &[&Vertex; 3]| common_inverse_w(*v).0;
-        match (source.gouraud, source.texture) {
+        match (features::GOURAUD && source.gouraud, source.texture) {
             (false, None) => self.draw_alike(source, run, lights, target, |t, v, primitive| {
                 (t.plane(v.map(|v| v.z)), Flat(primitive.rgb))
             }),
