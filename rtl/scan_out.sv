@@ -11,6 +11,11 @@
 // `scan_blank` is high from the first clock after the last line until shortly before the first line: then nothing is read.
 //
 // Parameters STEREO and OVERLAY 0 leave those parts away. Latency from the counters to the pins: LATENCY + 2 clocks.
+//
+// With STEREO 2 and 3 (weighted anaglyphs, see stereo_mix) the overlay says what lies under both eyes, and they are mixed a clock later:
+//
+//   memory -> delay_line: eyes, right -> stereo_mix -> video_pins
+//   camera -> overlay ------------------------^                                                  Latency: LATENCY + 3 clocks
 `default_nettype none
 
 module scan_out #(
@@ -32,36 +37,37 @@ module scan_out #(
     parameter int W_G        = 8,
     parameter int W_B        = 8,
     parameter int W_X        = $clog2(H_ACTIVE >> SCALE_BITS),
-    parameter int W_Y        = $clog2(V_ACTIVE >> SCALE_BITS)
+    parameter int W_Y        = $clog2(V_ACTIVE >> SCALE_BITS),
+    parameter int W_ARRANGED = STEREO > 1 ? 3 : 2
 ) (
-    input  wire logic           clk,
-    input  wire logic           rst_n,
-    input  wire logic [    1:0] arrangement,
-    input  wire logic           camera_enable,
-    input  wire logic [   23:0] background,
+    input  wire logic                  clk,
+    input  wire logic                  rst_n,
+    input  wire logic [W_ARRANGED-1:0] arrangement,
+    input  wire logic                  camera_enable,
+    input  wire logic [          23:0] background,
     // The memory.
-    output logic                scan_read,
-    output logic                scan_blank,
-    output logic      [W_X-1:0] scan_x,
-    output logic      [W_Y-1:0] scan_y,
-    input  wire logic           scan_left_set,
-    input  wire logic [   23:0] scan_left_rgb,
-    input  wire logic           scan_right_set,
-    input  wire logic [   23:0] scan_right_rgb,
+    output logic                       scan_read,
+    output logic                       scan_blank,
+    output logic      [       W_X-1:0] scan_x,
+    output logic      [       W_Y-1:0] scan_y,
+    input  wire logic                  scan_left_set,
+    input  wire logic [          23:0] scan_left_rgb,
+    input  wire logic                  scan_right_set,
+    input  wire logic [          23:0] scan_right_rgb,
     // The camera.
-    input  wire logic           s_camera_valid,
-    output logic                s_camera_ready,
-    input  wire logic           s_camera_first,
-    input  wire logic [   23:0] s_camera_rgb,
-    output logic                camera_late,
+    input  wire logic                  s_camera_valid,
+    output logic                       s_camera_ready,
+    input  wire logic                  s_camera_first,
+    input  wire logic [          23:0] s_camera_rgb,
+    output logic                       camera_late,
     // The monitor.
-    output logic                blank_start,
-    output logic      [W_R-1:0] r,
-    output logic      [W_G-1:0] g,
-    output logic      [W_B-1:0] b,
-    output logic                active,
-    output logic                hsync,
-    output logic                vsync
+    output logic                       blank_start,
+    output logic      [       W_R-1:0] r,
+    output logic      [       W_G-1:0] g,
+    output logic      [       W_B-1:0] b,
+    output logic                       active,
+    output logic                       hsync,
+    output logic                       vsync
 );
     localparam int W_H = $clog2(H_ACTIVE + H_FRONT + H_SYNC + H_BACK);
     localparam int W_V = $clog2(V_ACTIVE + V_FRONT + V_SYNC + V_BACK);
@@ -101,18 +107,20 @@ module scan_out #(
     );
 
     stereo_place #(
-        .WIDTH(H_ACTIVE >> SCALE_BITS),
-        .W_X  (W_X),
-        .W_Y  (W_Y)
+        .STEREO(STEREO),
+        .WIDTH (H_ACTIVE >> SCALE_BITS),
+        .HEIGHT(V_ACTIVE >> SCALE_BITS),
+        .W_X   (W_X),
+        .W_Y   (W_Y)
     ) i_place (
-        .arrangement(STEREO != 0 ? arrangement : 2'd0),
+        .arrangement(STEREO != 0 ? arrangement : '0),
         .s_x        (W_X'(h >> SCALE_BITS)),
-        .s_y        (scan_y),
+        .s_y        (v[SCALE_BITS+:W_Y]),
         .m_x        (scan_x),
+        .m_y        (scan_y),
         .m_right    (right)
     );
 
-    assign scan_y = W_Y'(v >> SCALE_BITS);
     assign scan_read = h_active;
 
     always_ff @(posedge clk) begin
@@ -130,6 +138,7 @@ module scan_out #(
     logic        late_right;
     logic [ 2:0] mixed_set;
     logic [23:0] mixed_rgb;
+    logic [23:0] over_rgb;
     logic [23:0] shown_rgb;
     logic        shown_active;
     logic        shown_hsync;
@@ -145,7 +154,46 @@ module scan_out #(
     );
 
     generate
-        if (STEREO != 0) begin : g_stereo
+        if (STEREO > 1) begin : g_weighted
+            logic        eye;
+            logic        left_set;
+            logic        right_set;
+            logic [23:0] left_rgb;
+            logic [23:0] right_rgb;
+            logic [ 2:0] all_set;
+            logic [23:0] weighted_rgb;
+
+            // Nothing hides what lies under the eyes.
+            assign mixed_set = '0;
+            assign mixed_rgb = '0;
+
+            delay_line #(
+                .W     (51),
+                .STAGES(1)
+            ) i_eyes (
+                .clk(clk),
+                .s  ({late_right, scan_left_set, scan_left_rgb, scan_right_set, scan_right_rgb}),
+                .m  ({eye, left_set, left_rgb, right_set, right_rgb})
+            );
+
+            stereo_mix #(
+                .STEREO(STEREO)
+            ) i_mix (
+                .arrangement(arrangement),
+                .s_right    (eye),
+                .s_left_set (left_set),
+                .s_left_rgb (left_rgb),
+                .s_right_set(right_set),
+                .s_right_rgb(right_rgb),
+                .s_under_rgb(over_rgb),
+                .m_set      (all_set),
+                .m_rgb      (weighted_rgb)
+            );
+
+            always_ff @(posedge clk) shown_rgb <= weighted_rgb;
+            logic unused_set;
+            assign unused_set = &all_set;
+        end else if (STEREO != 0) begin : g_stereo
             stereo_mix i_mix (
                 .arrangement(arrangement),
                 .s_right    (late_right),
@@ -153,14 +201,17 @@ module scan_out #(
                 .s_left_rgb (scan_left_rgb),
                 .s_right_set(scan_right_set),
                 .s_right_rgb(scan_right_rgb),
+                .s_under_rgb('0),
                 .m_set      (mixed_set),
                 .m_rgb      (mixed_rgb)
             );
+            assign shown_rgb = over_rgb;
         end else begin : g_mono
             logic unused_right;
             assign unused_right = late_right ^ scan_right_set ^ (^scan_right_rgb) ^ (^arrangement);
             assign mixed_set    = {3{scan_left_set}};
             assign mixed_rgb    = scan_left_rgb;
+            assign shown_rgb    = over_rgb;
         end
 
         if (OVERLAY != 0) begin : g_overlay
@@ -177,7 +228,7 @@ module scan_out #(
                 .s_first       (late_first),
                 .s_set         (mixed_set),
                 .s_rgb         (mixed_rgb),
-                .m_rgb         (shown_rgb),
+                .m_rgb         (over_rgb),
                 .late          (camera_late)
             );
         end else begin : g_alone
@@ -186,14 +237,14 @@ module scan_out #(
             assign s_camera_ready = 1'b0;
             assign camera_late    = 1'b0;
             always_ff @(posedge clk) begin
-                for (int c = 0; c < 3; c++) shown_rgb[8*c+:8] <= mixed_set[c] ? mixed_rgb[8*c+:8] : background[8*c+:8];
+                for (int c = 0; c < 3; c++) over_rgb[8*c+:8] <= mixed_set[c] ? mixed_rgb[8*c+:8] : background[8*c+:8];
             end
         end
     endgenerate
 
     delay_line #(
         .W     (3),
-        .STAGES(1)
+        .STAGES(STEREO > 1 ? 2 : 1)
     ) i_shown (
         .clk(clk),
         .s  ({late_active, late_hsync, late_vsync}),

@@ -7,6 +7,7 @@ use scanout::output::Rgb888;
 use scanout::overlay::mix_row;
 use scanout_cosim::monitor::Mode;
 use scanout_cosim::{Model, Random};
+use scanout_head::stereo::{Arrangement, compose};
 
 #[test]
 fn the_timing_is_the_table_of_system_c() {
@@ -39,12 +40,13 @@ const BACK: [u8; 3] = [10, 20, 30];
 const WIDTH: usize = 640;
 
 /// A picture for each eye, in lines.
-fn eyes(random: &mut Random, width: i32) -> Vec<Pixel> {
+fn eyes(random: &mut Random, (width, height): (usize, usize)) -> Vec<Pixel> {
+    let size = (width as i32, height as i32);
     let mut pixels = Vec::new();
     for i in 0..80 {
-        let (a, b) = (any_end(random, (width, 480)), any_end(random, (width, 480)));
+        let (a, b) = (any_end(random, size), any_end(random, size));
         let right = i % 2 == 1;
-        pixels.extend(line(a, b, (width, 480), 0).into_iter().map(|p| Pixel { right, ..p }));
+        pixels.extend(line(a, b, size, 0).into_iter().map(|p| Pixel { right, ..p }));
     }
     pixels
 }
@@ -52,7 +54,7 @@ fn eyes(random: &mut Random, width: i32) -> Vec<Pixel> {
 /// An eye's picture over what lies under it, by the library's overlay: `width` columns.
 fn eye(pixels: &[Pixel], right: bool, width: usize, under: &[[u8; 3]]) -> Vec<[u8; 3]> {
     let bytes = width.div_ceil(8);
-    let mut plane = vec![0u8; bytes * 480];
+    let mut plane = vec![0u8; bytes * (under.len() / width)];
     for p in pixels.iter().filter(|p| p.right == right) {
         plane[p.y as usize * bytes + p.x as usize / 8] |= 0x80 >> (p.x % 8);
     }
@@ -63,18 +65,55 @@ fn eye(pixels: &[Pixel], right: bool, width: usize, under: &[[u8; 3]]) -> Vec<[u
     picture
 }
 
-/// The arrangement's picture of two eyes' (the program's `render --stereo`).
-fn composed(arrangement: u32, left: &[[u8; 3]], right: &[[u8; 3]]) -> Vec<[u8; 3]> {
-    match arrangement {
-        0 => left.to_vec(),
-        1 => left.iter().zip(right).map(|(l, r)| [l[0], r[1], r[2]]).collect(),
-        2 => {
-            let rows = left.chunks(WIDTH / 2).zip(right.chunks(WIDTH / 2));
-            rows.flat_map(|(l, r)| [l, r].concat()).collect()
-        }
-        _ => {
-            let rows = left.chunks(WIDTH).zip(right.chunks(WIDTH)).enumerate();
-            rows.flat_map(|(y, (l, r))| if y % 2 == 0 { l } else { r }.to_vec()).collect()
+/// The codes of the RTL (see `stereo_place.sv`) and what they are to the library; `None` is one eye.
+const CODES: [(u32, Option<Arrangement>); 10] = [
+    (0, None),
+    (1, Some(Arrangement::Anaglyph)),
+    (2, Some(Arrangement::SideBySide)),
+    (2, Some(Arrangement::SideBySideHalf)),
+    (3, Some(Arrangement::Interlaced)),
+    (4, Some(Arrangement::TopBottom)),
+    (4, Some(Arrangement::TopBottomHalf)),
+    (5, Some(Arrangement::AnaglyphGrey)),
+    (6, Some(Arrangement::AnaglyphHalfColour)),
+    (7, Some(Arrangement::AnaglyphDubois)),
+];
+
+/// What a screen shows of two eyes' lines beside what the library composes of them; with a camera only where both eyes' pictures cover
+/// the screen.
+fn shown_and_composed(name: &str, codes: &[(u32, Option<Arrangement>)]) {
+    let mut random = Random::new(21);
+    let camera: Vec<[u8; 3]> =
+        (0..WIDTH * 480).map(|_| [0; 3].map(|_: u8| random.below(256) as u8)).collect();
+    for &(code, how) in codes {
+        let sizes = how.map_or([(WIDTH, 480); 2], |how| how.eye_sizes(WIDTH, 480));
+        let whole = sizes == [(WIDTH, 480); 2] && code != 3;
+        for with_camera in if whole { &[false, true][..] } else { &[false] } {
+            let mut screen = Screen::new(name, Mode::VGA, 22);
+            screen.set("ink", pack(INK));
+            screen.set("background", pack(BACK));
+            screen.set("arrangement", code);
+            let pixels = eyes(&mut random, sizes[0]);
+            if *with_camera {
+                screen.attach_camera(camera.clone());
+            }
+            let [left, right] = [false, true].map(|right| {
+                let (width, height) = sizes[usize::from(right)];
+                let under = if *with_camera { camera.clone() } else { vec![BACK; width * height] };
+                eye(&pixels, right, width, &under)
+            });
+            let mut wanted = left.clone();
+            if let Some(how) = how {
+                wanted.resize(WIDTH * 480, [0; 3]);
+                compose(how, &left, &right, &mut wanted, WIDTH);
+            }
+            screen.draw([pixels]);
+            let seen = screen.frames(2);
+            let last = &seen[1];
+            assert_eq!(last.faults, [""; 0]);
+            let wrong = difference(&last.pixels, &wanted, WIDTH);
+            assert_eq!(wrong, None, "{name}: {how:?}, camera {with_camera}");
+            assert_eq!(last.measured, Mode::VGA);
         }
     }
 }
@@ -84,32 +123,16 @@ fn stereo_and_overlay_are_the_librarys_integers() {
     if common::netlists_only() {
         return;
     }
-    let mut random = Random::new(21);
-    let camera: Vec<[u8; 3]> =
-        (0..WIDTH * 480).map(|_| [0; 3].map(|_: u8| random.below(256) as u8)).collect();
-    for (arrangement, with_camera) in
-        [(0, false), (1, false), (2, false), (3, false), (0, true), (1, true)]
-    {
-        let mut screen = Screen::new("screen_eyes", Mode::VGA, 22);
-        screen.set("ink", pack(INK));
-        screen.set("background", pack(BACK));
-        screen.set("arrangement", arrangement);
-        let width = if arrangement == 2 { WIDTH / 2 } else { WIDTH };
-        let pixels = eyes(&mut random, width as i32);
-        if with_camera {
-            screen.attach_camera(camera.clone());
-        }
-        let under = if with_camera { camera.clone() } else { vec![BACK; width * 480] };
-        let pictures = [false, true].map(|right| eye(&pixels, right, width, &under));
-        let wanted = composed(arrangement, &pictures[0], &pictures[1]);
-        screen.draw([pixels]);
-        let seen = screen.frames(2);
-        let last = &seen[1];
-        assert_eq!(last.faults, [""; 0]);
-        let wrong = difference(&last.pixels, &wanted, WIDTH);
-        assert_eq!(wrong, None, "arrangement {arrangement}, camera {with_camera}");
-        assert_eq!(last.measured, Mode::VGA);
+    let four: Vec<_> = CODES.into_iter().filter(|&(code, _)| code < 4).collect();
+    shown_and_composed("screen_eyes", &four);
+}
+
+#[test]
+fn all_nine_arrangements_are_the_librarys_integers() {
+    if common::netlists_only() {
+        return;
     }
+    shown_and_composed("screen_stereo", &CODES);
 }
 
 #[test]
