@@ -4,12 +4,13 @@
 
 use scanout::mesh::Normals;
 use scanout_assets::{Format, Image, Limits, LoadOptions, Model, NormalSource, bake, obj, ppm};
+use scanout_head::face::{Cascade, Finder, Grey, Localiser};
 
 /// A reader under test.
 pub type Target = fn(&[u8]);
 
 /// All targets by name.
-pub const TARGETS: [(&str, Target); 8] = [
+pub const TARGETS: [(&str, Target); 9] = [
     ("obj", obj),
     ("mtl", mtl),
     ("stl", stl),
@@ -18,6 +19,7 @@ pub const TARGETS: [(&str, Target); 8] = [
     ("ppm", ppm),
     ("texture", texture),
     ("bake", bake),
+    ("face", face),
 ];
 
 /// Small limits, so that a few bytes that claim much are refused and not merely slow.
@@ -161,5 +163,40 @@ fn bake_checked(bytes: &[u8]) {
         let count = part.mesh.positions.len();
         assert!(part.mesh.triangles.as_flattened().iter().all(|&i| usize::from(i) < count));
         assert!(part.texture.is_none_or(|texture| baked.texture(texture).is_some()));
+    }
+}
+
+/// Models of faces and pupils: any bytes, and small good ones that the bytes' halves damage; what loads must find its way through any
+/// picture.
+pub fn face(bytes: &[u8]) {
+    let (first, second) = bytes.split_at(bytes.len() / 2);
+    let _ = (Cascade::read(bytes), Localiser::read(bytes));
+    // A small model of each kind, damaged by what there is.
+    let mut cascade = [3i32, 0x7f81_7f81, 1, 1].map(i32::to_le_bytes).concat();
+    cascade.extend([0xc0, 0, 64, 0]);
+    cascade.extend([-1.0f32, 1.0, 0.0].map(f32::to_le_bytes).concat());
+    let mut localiser = [1i32.to_le_bytes(), 0.5f32.to_le_bytes()].concat();
+    localiser.extend([1i32, 1].map(i32::to_le_bytes).concat());
+    localiser.extend([0, 0xc0, 0, 64]);
+    localiser.extend([0.0f32, 0.0, 0.125, -0.25].map(f32::to_le_bytes).concat());
+    for (model, damage) in [(&mut cascade, first), (&mut localiser, second)] {
+        for pair in damage.as_chunks::<2>().0.iter().take(4) {
+            let at = usize::from(pair[0]) % model.len();
+            model[at] ^= pair[1];
+        }
+    }
+    let (Ok(cascade), Ok(localiser)) = (Cascade::read(&cascade), Localiser::read(&localiser))
+    else {
+        return;
+    };
+    let width = 1 + bytes.len() % 97;
+    let Some(picture) = bytes.get(..bytes.len() / width * width) else { return };
+    if let Some(grey) = Grey::new(picture, width) {
+        let mut finder = Finder::new(cascade, localiser);
+        for _ in 0..2 {
+            if let Some(eyes) = finder.find(&grey, [20.0, 1e9]) {
+                assert!(eyes.pupils.as_flattened().iter().all(|x| x.is_finite()));
+            }
+        }
     }
 }

@@ -99,13 +99,15 @@ def moved(judge, width, height, noise, count=150):
         rms = numpy.sqrt((off ** 2).mean())
         apart = numpy.array([numpy.hypot(*(p[1] - p[0])) * depths[i] for i, p in zip(seen, pupils)])
         depth = 100 * apart.std() / apart.mean()
+        bias = 100 * (apart.mean() / (EYE_DISTANCE * width / 2 / numpy.tan(numpy.radians(FIELD_OF_VIEW / 2))) - 1)
         marked = numpy.hypot(*(home - PUPILS).T).max()
         ms = numpy.median([got[i][8] for i in seen])
-        print(f"photograph {width}x{height}, noise {noise}, {name:<10}: {len(seen)} of {count}; pupils {rms:.3f} px rms, depth {depth:.2f} % rms;"
+        print(f"photograph {width}x{height}, noise {noise}, {name:<10}: {len(seen)} of {count}; pupils {rms:.3f} px rms, depth {depth:.2f} % rms about {-bias:+.1f} %;"
               f" from the marks {marked:.2f} px of the photograph; {ms:.1f} ms a frame")
         judge.demand("frames without the face", count - len(seen), 0)
         judge.demand("the pupils' rms", rms, 0.3)
         judge.demand("the depth's rms", depth, 0.9)
+        judge.demand("the depth's bias", abs(bias), 2)
         judge.demand("the distance from the marks", marked, 1.2)
 
 
@@ -125,16 +127,27 @@ def carphone(judge):
     return got, path
 
 
-def window(judge, film, program, seen):
-    """The whole program on that film: as many frames with a face, pictures that differ."""
-    pictures = pathlib.Path(judge.work.name) / "pictures"
+def window(judge, film, program, got):
+    """The whole program on that film: as many frames with a face, pictures that differ, and the places that a pinhole camera in the
+    middle of the screen gives."""
+    pictures, record = pathlib.Path(judge.work.name) / "pictures", pathlib.Path(judge.work.name) / "head.csv"
     command = [program, "window", "--head", "camera", "--face", judge.models / "face.bin", "--eyes", judge.models / "eyes.bin",
-               "--source", film, "-o", pictures, "--frames", "60", "--resolution", "104,58"]
+               "--source", film, "-o", pictures, "--fps", "60", "--resolution", "104,58", "--camera-place", "0,0,0", "--record", record]
     said = subprocess.run(command, check=True, capture_output=True, text=True).stderr
     print(said.splitlines()[0].replace(str(judge.work.name) + "/", ""))
+    seen = sum(eyes is not None for eyes in got)
+    judge.demand("missing words", f"a face is in {seen} of {len(got)} frames" not in said, 0)
     different = len({picture.read_bytes() for picture in pictures.iterdir()})
-    judge.demand("missing words", f"a face is in {seen} of 120 frames" not in said, 0)
-    judge.demand("pictures alike", 60 - different, 3)
+    # Two pictures a frame.
+    judge.demand("pictures alike", len(list(pictures.iterdir())) - different, len(got) + 10)
+    wanted = [list(map(float, line.split(","))) for line in places(got) if not line.endswith(",,,")]
+    recorded = [list(map(float, line.split(","))) for line in record.read_text().splitlines()[1:] if not line.endswith(",,,")]
+    judge.demand("places missing in the recording", abs(len(recorded) - len(wanted)), 2)
+    # A picture may take a sample a frame later than it was, so by time.
+    near = [min(wanted, key=lambda w: abs(w[0] - r[0])) for r in recorded]
+    off = numpy.abs(numpy.array(near) - numpy.array(recorded))
+    judge.demand("the recorded times' distance, s", off[:, 0].max(), 0.001)
+    judge.demand("the recorded places' distance, mm", off[:, 1:].max(), 0.1)
 
 
 def nobody(judge):
@@ -151,19 +164,17 @@ def nobody(judge):
     judge.demand("faces where nobody is", wrong, 0)
 
 
-def write_csv(got, path, width=176, height=144):
-    """As scanout-head records: seconds and mm, the camera in the middle of the screen."""
+def places(got, width=176, height=144):
+    """Lines as scanout-head records them: seconds and mm, the camera in the middle of the screen."""
     focal = width / 2 / numpy.tan(numpy.radians(FIELD_OF_VIEW / 2))
-    lines = ["time_s,x_mm,y_mm,z_mm"]
     for index, eyes in enumerate(got):
         if not eyes:
-            lines.append(f"{index * 1001 / 30000:.4f},,,")
+            yield f"{index * 1001 / 30000:.4f},,,"
             continue
         pupils = numpy.array(eyes[:4]).reshape(2, 2)
         depth = EYE_DISTANCE * focal / numpy.hypot(*(pupils[1] - pupils[0]))
         x, y = (pupils.mean(0) - [width / 2, height / 2]) * depth / focal
-        lines.append(f"{index * 1001 / 30000:.4f},{-x:.2f},{-y:.2f},{depth:.2f}")
-    pathlib.Path(path).write_text("\n".join(lines) + "\n")
+        yield f"{index * 1001 / 30000:.4f},{-x:.2f},{-y:.2f},{depth:.2f}"
 
 
 def main():
@@ -180,10 +191,10 @@ def main():
     moved(judge, 400, 300, 8)
     got, film = carphone(judge)
     if arguments.scanout:
-        window(judge, film, arguments.scanout, sum(eyes is not None for eyes in got))
+        window(judge, film, arguments.scanout, got)
     nobody(judge)
     if arguments.csv:
-        write_csv(got, arguments.csv)
+        pathlib.Path(arguments.csv).write_text("\n".join(["time_s,x_mm,y_mm,z_mm", *places(got)]) + "\n")
     sys.exit(judge.failed)
 
 

@@ -2,9 +2,14 @@
 
 mod support;
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::time::{Duration, Instant};
+
 use scanout_ar::Dictionary;
 use scanout_head::V3;
-use scanout_head::camera::{Find, Marker, MarkerFinder, Mount, Sight};
+use scanout_head::camera::{Camera, Find, Marker, MarkerFinder, Mount, Sight};
+use scanout_head::source::Source;
 use scanout_video::Frame;
 use support::Random;
 
@@ -124,4 +129,45 @@ fn nobody_is_found_where_nobody_is() {
     let other = Marker { id: 8, ..marker() };
     let mut finder = MarkerFinder::new(other, Sight::FieldOfView(FOV), MOUNT);
     assert_eq!(finder.find(&picture([0.0, 0.0, 600.0], 0.0, &mut random)), None);
+}
+
+/// Tells a frame's grey level, slowly.
+struct Slow(Arc<AtomicUsize>);
+
+impl Find for Slow {
+    fn find(&mut self, frame: &Frame) -> Option<V3> {
+        self.0.fetch_add(1, Relaxed);
+        std::thread::sleep(Duration::from_millis(30));
+        (frame.rgb[0][0] != 13).then(|| [frame.rgb[0][0].into(), 0.0, 600.0])
+    }
+}
+
+/// Frames that come faster than they are looked at: some are left out, never the last, and nobody waits.
+#[test]
+fn the_newest_frame_is_looked_at() {
+    let film = std::env::temp_dir().join(format!("scanout-head-{}.ppm", std::process::id()));
+    let mut bytes = Vec::new();
+    for level in 0..200 {
+        bytes.extend(b"P5 1 1 255\n");
+        bytes.push(level);
+    }
+    std::fs::write(&film, bytes).unwrap();
+    let looks = Arc::new(AtomicUsize::new(0));
+    let epoch = Instant::now();
+    let mut camera = Camera::start(&film, 30.0, Box::new(Slow(looks.clone())), epoch).unwrap();
+    let (mut seen, mut asked) = (Vec::new(), 0);
+    while seen.last() != Some(&199.0) {
+        asked += 1;
+        if let Some(sample) = camera.poll(epoch.elapsed().as_secs_f64()) {
+            seen.push(sample.eye.expect("nobody is only at 13")[0]);
+            assert!(sample.time <= epoch.elapsed().as_secs_f64());
+        }
+        assert!(epoch.elapsed() < Duration::from_secs(20), "the last frame is looked at: {seen:?}");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(seen.is_sorted() && looks.load(Relaxed) < 50, "{seen:?}");
+    assert!(asked > 2 * seen.len(), "asking never waits for a look: {asked} times, {seen:?}");
+    assert_eq!(camera.poll(1e3), None);
+    std::fs::remove_file(film).unwrap();
+    assert!(Camera::start("no such film".as_ref(), 30.0, Box::new(Slow(looks)), epoch).is_err());
 }
