@@ -42,6 +42,8 @@ mod model;
 #[cfg(feature = "std")]
 mod normals;
 #[cfg(feature = "std")]
+mod palette;
+#[cfg(feature = "std")]
 mod raw;
 #[cfg(feature = "std")]
 mod reader;
@@ -58,3 +60,5 @@ pub use image::load_image;
 pub use load::{Format, Limits, LoadOptions, NormalSource, load, load_bytes};
 #[cfg(feature = "std")]
 pub use model::{Image, MaterialBuf, MeshBuf, Model, NormalsBuf, Part, Placement, Stats};
+#[cfg(feature = "std")]
+pub use palette::{Paletted, TextureFormat};

@@ -358,9 +358,23 @@ pub struct BakeArgs {
     /// Format of the model, instead of guessing by name
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub input_format: Option<InputFormat>,
+    /// Textures of the binary with a palette of so many colours: a byte a texel (256) or half a byte (16), instead of two
+    #[arg(long, value_enum, value_name = "COLOURS")]
+    pub palette: Option<PaletteSize>,
     /// Folder for the files
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub output: PathBuf,
+}
+
+/// Colours of a palette.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub enum PaletteSize {
+    /// Half a byte a texel
+    #[value(name = "16")]
+    Sixteen,
+    /// A byte a texel
+    #[value(name = "256")]
+    TwoHundredAndFiftySix,
 }
 
 /// `scanout lines`.

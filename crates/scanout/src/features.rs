@@ -20,6 +20,7 @@ features! {
     FOG = "fog"
     GOURAUD = "gouraud"
     LINES = "lines"
+    PALETTE_TEXTURES = "palette-textures"
     PHONG = "phong"
     POINTS = "points"
     SMOOTH_LINES = "smooth-lines"

@@ -18,6 +18,8 @@ macro_rules! compiled_in {
     ($($feature:literal)*) => {
         fn compiled_in(feature: &str) -> bool {
             match feature {
+                // What draws every texture draws those, too.
+                "palette-textures" if cfg!(feature = "all-textures") => true,
                 $($feature => cfg!(feature = $feature),)*
                 _ => panic!("no feature {feature}"),
             }
@@ -26,7 +28,7 @@ macro_rules! compiled_in {
 }
 
 compiled_in! {
-    "all-lights" "all-textures" "background-images" "dither" "fog" "gouraud" "lines" "phong" "points" "smooth-lines"
+    "all-lights" "all-textures" "background-images" "dither" "fog" "gouraud" "lines" "palette-textures" "phong" "points" "smooth-lines"
     "two-sided" "vertex-colours"
 }
 
@@ -53,6 +55,15 @@ static TEXELS: [u16; 8 * 8] = {
         i += 1;
     }
     texels
+};
+
+static INDICES: [u8; 8 * 8] = {
+    let (mut indices, mut i) = ([0; 64], 0);
+    while i < 64 {
+        indices[i] = i as u8;
+        i += 1;
+    }
+    indices
 };
 
 static PICTURE: [[u8; 3]; 64 * 48] = {
@@ -120,7 +131,7 @@ impl Stage {
 /// What is changed, the object that is to blame and the feature that is needed, the frame's hash.
 type Case = (fn(&mut Stage), Option<usize>, &'static str, u64);
 
-const CASES: [Case; 17] = [
+const CASES: [Case; 18] = [
     (|s| s.mode = Mode::Gouraud, Some(1), "gouraud", 0xcbd2_b54c_5120_bfed),
     (|s| s.mode = Mode::Phong, Some(1), "phong", 0xd42d_4e8c_3dff_decb),
     (|s| s.mode = Mode::Wire, Some(1), "lines", 0x7955_4ae4_ce5d_b062),
@@ -154,6 +165,15 @@ const CASES: [Case; 17] = [
         Some(1),
         "all-textures",
         0x7ce3_83dd_cba3_8cd1,
+    ),
+    (
+        |s| {
+            let palette = Texels::Palette8 { indices: &INDICES, palette: &TEXELS };
+            (s.textured, s.texture.texels) = (true, palette);
+        },
+        Some(1),
+        "palette-textures",
+        0x1830_d916_2972_6aa9, // that of the plain texture, whose colours it has
     ),
     (
         |s| s.fog = Some(Fog::Linear { colour: [200; 3], start: Q16::ONE, end: Q16::from_int(4) }),

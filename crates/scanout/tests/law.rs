@@ -77,6 +77,40 @@ fn every_mode_in_every_order() {
     }
 }
 
+/// Textures with a palette: drawn as their colours are, in every order.
+#[test]
+fn palettes() {
+    let mesh_data = sphere(16, 12);
+    let mesh = mesh_data.mesh();
+    let palette: Vec<u16> = (0..256).map(|i| (i * 40503) as u16).collect();
+    let eight: Vec<u8> = (0..60 * 40).map(|i| (i / 7 % 16) as u8).collect();
+    let four: Vec<u8> = eight.chunks(2).map(|pair| pair[0] | pair[1] << 4).collect();
+    let colours: Vec<u16> = eight.iter().map(|&i| palette[usize::from(i)]).collect();
+    for filter in [Filter::Nearest, Filter::Bilinear] {
+        for mode in [Mode::Flat, Mode::Gouraud, Mode::Phong] {
+            let draw_with = |texels| {
+                let mut texture = Texture::new(60, 40, texels).unwrap();
+                texture.filter = filter;
+                let mut m = material();
+                m.texture = Some(&texture);
+                let objects = [object(&mesh, &m, mode)];
+                let scene = scene(camera(160, 120), &objects);
+                if mode == Mode::Gouraud && matches!(texels, Texels::Palette4 { .. }) {
+                    check::<Rgb565>(&format!("palette {filter:?}"), &scene);
+                }
+                draw::<Rgb565>(&scene, SIZE, SIZE.height, false)
+            };
+            let expected = draw_with(Texels::Rgb565(&colours));
+            let palette = &palette[..];
+            let same = [
+                draw_with(Texels::Palette8 { indices: &eight, palette }),
+                draw_with(Texels::Palette4 { indices: &four, palette: &palette[..16] }),
+            ];
+            assert!(same.iter().all(|picture| *picture == expected), "{mode:?} {filter:?}");
+        }
+    }
+}
+
 #[test]
 fn every_format() {
     let mesh_data = sphere(16, 12);

@@ -1,6 +1,7 @@
 //! Reading `.mesh` in place: no allocator, no copy, no `unsafe`.
 
-use super::{HEADER, MAGIC, NO_TEXTURE, PART, TEXTURE, VERSION, WRAPS, crc32};
+use super::{HEADER, MAGIC, NO_TEXTURE, PALETTE_4, PALETTE_8, PART, TEXTURE, VERSION};
+use super::{VERSION_WITHOUT_PALETTES, WRAPS, crc32};
 use bytemuck::AnyBitPattern;
 use core::fmt;
 use scanout::mesh::{Mesh, Normals, Sphere};
@@ -52,7 +53,9 @@ impl fmt::Display for BakeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Magic => f.write_str("not a .mesh file; make one with `scanout bake`"),
-            Self::Version(v) => write!(f, ".mesh version {v}, not {VERSION}; bake it again"),
+            Self::Version(v) => {
+                write!(f, ".mesh version {v}, not up to {VERSION}; bake it again, or update")
+            }
             Self::Truncated { need } => write!(f, "shorter than its {need} bytes; copy it again"),
             Self::Misaligned => f.write_str("not at an address divisible by 4; use bake::Aligned"),
             Self::Section { at } => write!(f, "byte {at}: a section lies outside; bake it again"),
@@ -118,7 +121,8 @@ pub fn read(bytes: &[u8]) -> Result<BakedMesh<'_>, BakeError> {
         return Err(BakeError::Truncated { need: HEADER as u32 });
     }
     let version = u16_at(bytes, 4);
-    if version != VERSION || usize::from(u16_at(bytes, 6)) != HEADER {
+    let known = VERSION_WITHOUT_PALETTES..=VERSION;
+    if !known.contains(&version) || usize::from(u16_at(bytes, 6)) != HEADER {
         return Err(BakeError::Version(version));
     }
     let need = u32_at(bytes, 8);
@@ -199,6 +203,21 @@ impl<'a> BakedMesh<'a> {
         }
         slice(self.bytes, u32_at(self.bytes, field) as usize, count)
             .ok_or(BakeError::Section { at: field as u32 })
+    }
+
+    /// A palette and the bytes of indices behind it.
+    fn paletted(
+        &self,
+        field: usize,
+        colours: usize,
+        bytes: usize,
+    ) -> Result<(&'a [u16], &'a [u8]), BakeError> {
+        let whole: &[u8] = self.section(field, 2 * colours + bytes)?;
+        let (palette, indices) = whole.split_at(2 * colours);
+        // Sections lie at addresses divisible by 4.
+        let palette = bytemuck::try_cast_slice(palette)
+            .map_err(|_| BakeError::Section { at: field as u32 })?;
+        Ok((palette, indices))
     }
 
     fn counted<T: AnyBitPattern>(&self, field: usize) -> Result<&'a [T], BakeError> {
@@ -292,16 +311,32 @@ impl<'a> BakedMesh<'a> {
         {
             return Err(disagree);
         }
-        let texels: &[u16] = self.counted(at + 8)?;
         let level = |k| usize::from(width >> k).max(1) * usize::from(height >> k).max(1);
-        if texels.len() != (0..levels).map(level).sum::<usize>() {
+        let count = (0..levels).map(level).sum::<usize>();
+        if u32_at(self.bytes, at + 12) as usize != count {
             return Err(disagree);
         }
+        let texels = match u16_at(self.bytes, at + 6) {
+            // The field meant nothing then.
+            _ if u16_at(self.bytes, 4) == VERSION_WITHOUT_PALETTES => {
+                Texels::Rgb565(self.counted(at + 8)?)
+            }
+            0 => Texels::Rgb565(self.counted(at + 8)?),
+            PALETTE_8 => {
+                let (palette, indices) = self.paletted(at + 8, 256, count)?;
+                Texels::Palette8 { indices, palette }
+            }
+            PALETTE_4 => {
+                let (palette, indices) = self.paletted(at + 8, 16, count.div_ceil(2))?;
+                Texels::Palette4 { indices, palette }
+            }
+            _ => return Err(disagree),
+        };
         Ok(Texture {
             width,
             height,
             levels: levels as u8,
-            texels: Texels::Rgb565(texels),
+            texels,
             wrap: [Wrap::Repeat; 2],
             filter: Filter::Nearest,
             border: [0; 3],

@@ -1,6 +1,6 @@
 //! Baked models: the `.mesh` binary that firmware uses in place, and the `.hex` tables that hardware reads.
 //!
-//! # The `.mesh` binary, version 1
+//! # The `.mesh` binary, versions 1 and 2
 //!
 //! Little-endian. Every offset counts bytes from the beginning of the file and is a multiple of 4; a file that lies
 //! at an address divisible by 4 is read without copying (see [`Aligned`]).
@@ -8,7 +8,7 @@
 //! | byte | type | header |
 //! |---|---|---|
 //! | 0 | `[u8; 4]` | magic `SCNM` |
-//! | 4 | u16, u16 | version (1), size of this header (64) |
+//! | 4 | u16, u16 | version (1; 2 where a texture has a palette), size of this header (64) |
 //! | 8 | u32 | size of the file |
 //! | 12 | u32 | CRC-32 (IEEE, as in PNG) of all bytes from 16 to the end |
 //! | 16 | u16, u16 | number of parts, number of textures |
@@ -38,8 +38,14 @@
 //! | byte | type | texture record, 16 bytes |
 //! |---|---|---|
 //! | 0 | u16, u16 | width, height, 1 to 1024 |
-//! | 4 | u16, u16 | mip levels, 0 |
-//! | 8 | u32, u32 | RGB565 texels: offset, count of all levels |
+//! | 4 | u16, u16 | mip levels; format: 0 RGB565, 1 palette of 256 colours, 2 palette of 16 |
+//! | 8 | u32, u32 | texels: offset, count of all levels |
+//!
+//! | format | what lies at the offset |
+//! |---|---|
+//! | 0 | u16 a texel, RGB565 |
+//! | 1 | 256 x u16, RGB565, then u8 a texel |
+//! | 2 | 16 x u16, RGB565, then 4 bits a texel, the first of two in the low half of the byte |
 //!
 //! Wrap is what lies outside [0, 1) of the texture: 0 it repeats, 1 mirrored, 2 its outermost texel continues, 3 border.
 //!
@@ -55,18 +61,23 @@ pub use binary::{Aligned, BakeError, BakedMesh, BakedPart, read};
 #[cfg(feature = "std")]
 pub use hex::{HEX_README, HexError, check_hex, hex_files};
 #[cfg(feature = "std")]
-pub use write::{to_binary, write_binary, write_hex};
+pub use write::{to_binary, to_binary_as, write_binary, write_binary_as, write_hex};
 
 use scanout::texture::Wrap;
 
 /// First bytes of a `.mesh` file.
 pub const MAGIC: [u8; 4] = *b"SCNM";
-/// Version of the format that this library writes and reads.
-pub const VERSION: u16 = 1;
+/// Latest version of the format: the one with palettes. Files without one are written as version 1, and both are read.
+pub const VERSION: u16 = 2;
+/// Version of files without palettes.
+const VERSION_WITHOUT_PALETTES: u16 = 1;
 
 const HEADER: usize = 64;
 const PART: usize = 96;
 const TEXTURE: usize = 16;
+/// Formats of texture records.
+const PALETTE_8: u16 = 1;
+const PALETTE_4: u16 = 2;
 /// "No texture".
 const NO_TEXTURE: u16 = u16::MAX;
 

@@ -1,6 +1,7 @@
 use super::*;
 use crate::load::{Format, LoadOptions, load_bytes};
 use crate::model::{Image, Model};
+use crate::palette::TextureFormat;
 use scanout::texture::Texels;
 
 /// Two parts: one with a texture and flat, one smooth, with colours; and a loose line.
@@ -58,16 +59,59 @@ fn a_round_trip_keeps_everything() {
     });
 }
 
+/// Palettes in place, of files of their own version; files without stay as they were.
+#[test]
+fn palettes_make_a_round_trip() {
+    let mut model = model();
+    assert_eq!(to_binary(&model).unwrap()[4], 1);
+    // An odd number of texels over all levels.
+    let image = model.images[0].clone();
+    assert_eq!(image.rgb.len() % 2, 1);
+    for (format, colours) in [(TextureFormat::Palette256, 256), (TextureFormat::Palette16, 16)] {
+        let bytes = to_binary_as(&model, format).unwrap();
+        assert_eq!(bytes[4], 2);
+        with(&bytes, |baked| {
+            let texture = baked.unwrap().texture(0).unwrap();
+            assert_eq!(texture.check(), Ok(()));
+            let expected = image.to_palette(colours);
+            match texture.texels {
+                Texels::Palette8 { indices, palette } => {
+                    assert_eq!((indices, palette), (&expected.indices[..], &expected.palette[..]));
+                    assert_eq!(colours, 256);
+                }
+                Texels::Palette4 { indices, palette } => {
+                    assert_eq!((palette, colours), (&expected.palette[..], 16));
+                    let of = |i: usize| indices[i / 2] >> (4 * (i % 2)) & 15;
+                    assert!((0..image.rgb.len()).all(|i| of(i) == expected.indices[i]));
+                }
+                other => panic!("{other:?}"),
+            }
+        });
+        // A format that nobody knows.
+        let mut other = bytes.clone();
+        let at = HEADER + model.parts.len() * PART + 6;
+        other[at] = 3;
+        with(&other, |baked| assert!(matches!(baked, Err(BakeError::Inconsistent { .. }))));
+    }
+    model.images.clear();
+    assert_eq!(to_binary_as(&model, TextureFormat::Palette16).unwrap()[4], 1);
+}
+
 #[test]
 fn every_flipped_byte_and_every_cut_is_survived() {
-    let bytes = to_binary(&model()).unwrap();
+    for format in [TextureFormat::Rgb565, TextureFormat::Palette256, TextureFormat::Palette16] {
+        survived(&to_binary_as(&model(), format).unwrap());
+    }
+}
+
+fn survived(bytes: &[u8]) {
     for end in 0..bytes.len() {
         with(&bytes[..end], |baked| assert!(baked.is_err()));
     }
     let mut accepted = 0;
     for at in 0..bytes.len() {
         for flip in [0x01, 0x80, 0xff] {
-            let mut broken = bytes.clone();
+            let mut broken = bytes.to_vec();
             broken[at] ^= flip;
             with(&broken, |baked| {
                 let Ok(baked) = baked else { return };
@@ -91,9 +135,12 @@ fn errors_say_what_to_do() {
     with(b"", |r| assert_eq!(r.unwrap_err(), BakeError::Magic));
     with(&bytes[..20], |r| assert_eq!(r.unwrap_err(), BakeError::Truncated { need: 64 }));
     let mut other = bytes.clone();
-    other[4] = 2;
+    other[4] = 3;
     with(&other, |r| {
-        assert_eq!(r.unwrap_err().to_string(), ".mesh version 2, not 1; bake it again")
+        assert_eq!(
+            r.unwrap_err().to_string(),
+            ".mesh version 3, not up to 2; bake it again, or update"
+        )
     });
     let (words, length) = aligned(&[&[0], bytes.as_slice()].concat());
     let shifted = &bytemuck::cast_slice::<u32, u8>(&words)[1..length];

@@ -1,7 +1,9 @@
 //! Writing baked models.
 
-use super::{HEADER, MAGIC, NO_TEXTURE, PART, TEXTURE, VERSION, crc32, hex, wrap_bits};
+use super::{HEADER, MAGIC, NO_TEXTURE, PALETTE_4, PALETTE_8, PART, TEXTURE, VERSION};
+use super::{VERSION_WITHOUT_PALETTES, crc32, hex, wrap_bits};
 use crate::model::{Model, NormalsBuf, Part};
+use crate::palette::TextureFormat;
 use std::fs::File;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -11,13 +13,23 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// [`io::ErrorKind::InvalidInput`] when the model has more than 65,535 parts or textures or 4 GiB.
 pub fn to_binary(model: &Model) -> io::Result<Vec<u8>> {
+    to_binary_as(model, TextureFormat::Rgb565)
+}
+
+/// [`to_binary`] with its textures in a format of one's choice: version 1 of the file where that is RGB565, else 2.
+///
+/// # Errors
+/// As [`to_binary`].
+pub fn to_binary_as(model: &Model, format: TextureFormat) -> io::Result<Vec<u8>> {
     let too_many = || io::Error::new(ErrorKind::InvalidInput, "the model is too large for a .mesh");
     let parts = u16::try_from(model.parts.len()).map_err(|_| too_many())?;
     let textures = u16::try_from(model.images.len()).map_err(|_| too_many())?;
     let records = HEADER + usize::from(parts) * PART + usize::from(textures) * TEXTURE;
     let mut out = vec![0; records];
     out[..4].copy_from_slice(&MAGIC);
-    put16(&mut out, 4, VERSION);
+    // What needs no later version is readable by older firmware.
+    let palette = format.colours().filter(|_| textures > 0);
+    put16(&mut out, 4, if palette.is_some() { VERSION } else { VERSION_WITHOUT_PALETTES });
     put16(&mut out, 6, HEADER as u16);
     put16(&mut out, 16, parts);
     put16(&mut out, 18, textures);
@@ -34,6 +46,15 @@ pub fn to_binary(model: &Model) -> io::Result<Vec<u8>> {
         put16(&mut out, at, image.width);
         put16(&mut out, at + 2, image.height);
         put16(&mut out, at + 4, image.levels.into());
+        if let Some(colours) = palette {
+            let paletted = image.to_palette(colours);
+            let pairs = || paletted.indices.chunks(2).map(|p| p[0] | p.get(1).unwrap_or(&0) << 4);
+            let indices = if colours == 16 { pairs().collect() } else { paletted.indices.clone() };
+            put16(&mut out, at + 6, if colours == 16 { PALETTE_4 } else { PALETTE_8 });
+            let palette = paletted.palette.iter().flat_map(|t| t.to_le_bytes());
+            section(&mut out, at + 8, paletted.indices.len(), palette.chain(indices));
+            continue;
+        }
         let texels = image.to_rgb565();
         section(&mut out, at + 8, texels.len(), texels.iter().flat_map(|t| t.to_le_bytes()));
     }
@@ -49,7 +70,19 @@ pub fn to_binary(model: &Model) -> io::Result<Vec<u8>> {
 /// # Errors
 /// As [`to_binary`], and whatever the operating system says; an incomplete file is removed.
 pub fn write_binary(model: &Model, path: impl AsRef<Path>) -> io::Result<()> {
-    write_file(path.as_ref(), &to_binary(model)?)
+    write_binary_as(model, TextureFormat::Rgb565, path)
+}
+
+/// Writes [`to_binary_as`] to a file.
+///
+/// # Errors
+/// As [`write_binary`].
+pub fn write_binary_as(
+    model: &Model,
+    format: TextureFormat,
+    path: impl AsRef<Path>,
+) -> io::Result<()> {
+    write_file(path.as_ref(), &to_binary_as(model, format)?)
 }
 
 /// As `std::fs::write`, but leaves no part of a file when the disk is full.

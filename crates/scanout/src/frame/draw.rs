@@ -19,7 +19,7 @@ use crate::raster::point::draw_point;
 use crate::raster::smooth_line::{SmoothEnd, walk_smooth};
 use crate::scene::{Mode, Object};
 use crate::setup::Triangle;
-use crate::texture::{General, Repeat565, Texture};
+use crate::texture::{General, Repeat565, RepeatPalette, Texture};
 use crate::transform::{Vertex, Viewport, common_inverse_w};
 
 impl<'a> Frame<'a> {
@@ -446,14 +446,34 @@ impl<'f> Painter<'f> {
                     Some(sampler) => {
                         self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
                     }
-                    None if features::ALL_TEXTURES => {
-                        let sampler = General(texture);
-                        self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
-                    }
-                    None => {}
+                    None => self.other_texture(texture, t, v, z, (uv, q), shader, target),
                 }
             }
             None => self.fog(t, v, z, shader, target),
+        }
+    }
+
+    /// Textures that are not of the plain kind.
+    #[allow(clippy::too_many_arguments)]
+    fn other_texture<F: PixelFormat, S: Shader>(
+        &self,
+        texture: &Texture,
+        t: &Triangle,
+        v: [&Vertex; 3],
+        z: &Plane,
+        (uv, q): ([[i32; 2]; 3], [u32; 3]),
+        shader: S,
+        target: &mut Target<F>,
+    ) {
+        match RepeatPalette::new(texture) {
+            Some(sampler) if features::PALETTE_TEXTURES => {
+                self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
+            }
+            _ if features::ALL_TEXTURES => {
+                let sampler = General(texture);
+                self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
+            }
+            _ => {}
         }
     }
 

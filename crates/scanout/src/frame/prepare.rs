@@ -16,7 +16,7 @@ use crate::mesh::{Mesh, Normals};
 use crate::scene::{Background, Light, Mode, Object, Scene};
 use crate::setup::{first_pixel, signed_area};
 use crate::shade::{FogWeights, modulate};
-use crate::texture::Repeat565;
+use crate::texture::{Repeat565, RepeatPalette, Texture};
 use crate::transform::{CLIP, ClipMatrix, FAR, NEAR, Vertex, Viewport};
 
 /// The most primitives that an object can make.
@@ -213,12 +213,8 @@ fn compiled_in(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
             Some("vertex-colours")
         } else if !features::ALL_LIGHTS && filled && !plainly_lit(scene, object) {
             Some("all-lights")
-        } else if !features::ALL_TEXTURES
-            && filled
-            && !mesh.uv_triangles.is_empty()
-            && material.texture.is_some_and(|texture| Repeat565::new(texture).is_none())
-        {
-            Some("all-textures")
+        } else if filled && !mesh.uv_triangles.is_empty() {
+            material.texture.and_then(left_out)
         } else {
             None
         });
@@ -227,6 +223,18 @@ fn compiled_in(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
         }
     }
     Ok(())
+}
+
+/// The feature that a texture needs and that is not there.
+fn left_out(texture: &Texture) -> Option<&'static str> {
+    if features::ALL_TEXTURES || Repeat565::new(texture).is_some() {
+        return None;
+    }
+    match RepeatPalette::new(texture) {
+        Some(_) if features::PALETTE_TEXTURES => None,
+        Some(_) => Some("palette-textures"),
+        None => Some("all-textures"),
+    }
 }
 
 /// The primitives so far; counts on when the memory is full.

@@ -22,8 +22,10 @@
 //! `T_l = cbrt(K / 2^(2l - 1))`. One comparison a level instead of derivatives a pixel. What it will not do: anisotropic
 //! or trilinear filtering.
 
+mod palette;
 mod perspective;
 
+pub use palette::RepeatPalette;
 pub use perspective::{
     General, Perspective, Repeat565, Sampler, TextureSetup, integer_q, reciprocal,
 };
@@ -46,6 +48,20 @@ pub enum Texels<'a> {
     Rgb565(&'a [u16]),
     /// 8 bits a channel, R, G, B.
     Rgb888(&'a [[u8; 3]]),
+    /// A byte a texel, which is the index of its colour.
+    Palette8 {
+        /// Indices.
+        indices: &'a [u8],
+        /// Up to 256 colours, 5-6-5 bits. With 256 no index needs to be looked at by [`Texture::check`].
+        palette: &'a [u16],
+    },
+    /// Four bits a texel: texel 2 n is the low half of byte n, texel 2 n + 1 the high half, over the ends of rows and levels.
+    Palette4 {
+        /// Indices, two a byte.
+        indices: &'a [u8],
+        /// Up to 16 colours, 5-6-5 bits. With 16 no index needs to be looked at by [`Texture::check`].
+        palette: &'a [u16],
+    },
 }
 
 impl Texels<'_> {
@@ -54,6 +70,17 @@ impl Texels<'_> {
         match self {
             Texels::Rgb565(t) => t.len(),
             Texels::Rgb888(t) => t.len(),
+            Texels::Palette8 { indices, .. } => indices.len(),
+            Texels::Palette4 { indices, .. } => 2 * indices.len(),
+        }
+    }
+
+    /// Colours of the palette and how many there may be.
+    fn palette(&self) -> Option<(usize, usize)> {
+        match self {
+            Texels::Rgb565(_) | Texels::Rgb888(_) => None,
+            Texels::Palette8 { palette, .. } => Some((palette.len(), 256)),
+            Texels::Palette4 { palette, .. } => Some((palette.len(), 16)),
         }
     }
 
@@ -68,6 +95,12 @@ impl Texels<'_> {
         match self {
             Texels::Rgb565(t) => t.get(index).map_or([0; 3], |&p| widen565(p)),
             Texels::Rgb888(t) => t.get(index).copied().unwrap_or([0; 3]),
+            Texels::Palette8 { indices, palette } => {
+                widen565(palette::colour(palette, palette::eight_bits(indices, index)))
+            }
+            Texels::Palette4 { indices, palette } => {
+                widen565(palette::colour(palette, palette::four_bits(indices, index)))
+            }
         }
     }
 }
@@ -134,6 +167,20 @@ pub enum TextureError {
         /// How many there are.
         present: usize,
     },
+    /// The palette has no colour, or more than its indices can tell apart.
+    Palette {
+        /// How many it has.
+        colours: usize,
+        /// How many it may have.
+        most: usize,
+    },
+    /// A texel's index lies beyond the palette.
+    Colour {
+        /// Number of the texel.
+        texel: usize,
+        /// Colours of the palette.
+        colours: usize,
+    },
 }
 
 impl core::fmt::Display for TextureError {
@@ -145,6 +192,12 @@ impl core::fmt::Display for TextureError {
             TextureError::Levels(n) => write!(f, "{n} mip levels; there must be 1 to {MAX_LEVELS}"),
             TextureError::Texels { needed, present } => {
                 write!(f, "{present} texels where the levels need {needed}")
+            }
+            TextureError::Palette { colours, most } => {
+                write!(f, "a palette of {colours} colours; there must be 1 to {most}")
+            }
+            TextureError::Colour { texel, colours } => {
+                write!(f, "texel {texel} has an index beyond the palette's {colours} colours")
             }
         }
     }
@@ -182,7 +235,7 @@ impl<'a> Texture<'a> {
         (0..level).map(|k| self.level_size(k).map(usize::from)).map(|[w, h]| w * h).sum()
     }
 
-    /// Checks sizes, once a frame and object, so that sampling need not.
+    /// Checks sizes, once a frame and object, so that sampling need not; of a palette that is not full every index, too.
     ///
     /// # Errors
     /// As [`TextureError`] lists.
@@ -198,7 +251,18 @@ impl<'a> Texture<'a> {
         if self.texels.len() < needed {
             return Err(TextureError::Texels { needed, present: self.texels.len() });
         }
-        Ok(())
+        match self.texels.palette() {
+            Some((colours, most)) if colours == 0 || colours > most => {
+                Err(TextureError::Palette { colours, most })
+            }
+            Some((colours, most)) if colours < most => {
+                match palette::beyond(&self.texels, needed, colours) {
+                    Some(texel) => Err(TextureError::Colour { texel, colours }),
+                    None => Ok(()),
+                }
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The texel at column `x`, row `y` of a level, any integers, after the outside modes.

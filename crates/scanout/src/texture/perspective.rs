@@ -80,7 +80,7 @@ pub fn integer_q(plane_value: u32) -> u32 {
 /// Distances in a texture of `size` from the whole repeats below the least texture coordinate, 1/4096 texel rounded to
 /// nearest, [0, 2^38); and those repeats.
 #[inline(always)]
-fn local(uv: [[i32; 2]; 3], size: [u32; 2]) -> ([[u64; 3]; 2], [i32; 2]) {
+pub(super) fn local(uv: [[i32; 2]; 3], size: [u32; 2]) -> ([[u64; 3]; 2], [i32; 2]) {
     let repeats = [0, 1].map(|axis: usize| uv[0][axis].min(uv[1][axis]).min(uv[2][axis]) >> 16);
     let local = [0, 1].map(|axis: usize| {
         uv.map(|uv| {
@@ -94,7 +94,7 @@ fn local(uv: [[i32; 2]; 3], size: [u32; 2]) -> ([[u64; 3]; 2], [i32; 2]) {
 impl Perspective {
     /// From the corners' places in the texture, 1/4096 texel below 2^38, and their 1/w (integers, the largest in [2^22, 2^23)).
     #[inline(always)]
-    fn new(t: &Triangle, local: &[[u64; 3]; 2], q: [u32; 3]) -> Perspective {
+    pub(super) fn new(t: &Triangle, local: &[[u64; 3]; 2], q: [u32; 3]) -> Perspective {
         let mut shift = [0; 2];
         let values = [0, 1].map(|axis: usize| {
             let products = [0, 1, 2].map(|i: usize| local[axis][i] * q[i] as u64);
@@ -208,15 +208,21 @@ impl<'a> Repeat565<'a> {
     /// The texel as it is stored, from the shifts of a [`Perspective`].
     #[inline(always)]
     pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
-        let [x, y] = [0, 1].map(|i| {
-            let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift[i] - 1));
-            let texel = whole(product, shift[i] + SUBTEXEL_BITS);
-            // Whole repeats are taken off at setup: few triangles reach into the next one.
-            (if texel < self.size[i] { texel } else { texel % self.size[i] }) as usize
-        });
-        let index = y * self.size[0] as usize + x;
+        let index = texel_of_repeat(self.size, shift, st, r);
         self.texels.get(index).copied().unwrap_or(0)
     }
+}
+
+/// Which texel a pixel has of a texture that repeats, from the shifts of a [`Perspective`].
+#[inline(always)]
+pub(super) fn texel_of_repeat(size: [u64; 2], shift: [u32; 2], st: [u32; 2], r: u64) -> usize {
+    let [x, y] = [0, 1].map(|i| {
+        let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift[i] - 1));
+        let texel = whole(product, shift[i] + SUBTEXEL_BITS);
+        // Whole repeats are taken off at setup: few triangles reach into the next one.
+        (if texel < size[i] { texel } else { texel % size[i] }) as usize
+    });
+    y * size[0] as usize + x
 }
 
 impl Sampler for Repeat565<'_> {
@@ -275,6 +281,7 @@ fn cube_root(n: u128) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::RepeatPalette;
     use super::*;
 
     #[test]
@@ -353,8 +360,24 @@ mod tests {
         assert!(Repeat565::new(&other).is_none());
     }
 
+    /// So is that of palettes.
+    #[test]
+    fn samplers_of_palettes_agree() {
+        let indices: [u8; 50 * 39] = core::array::from_fn(|i| (i * 31) as u8);
+        let palette: [u16; 256] = core::array::from_fn(|i| (i * 40503) as u16);
+        let eight = Texels::Palette8 { indices: &indices, palette: &palette };
+        let four = Texels::Palette4 { indices: &indices, palette: &palette[..16] };
+        for (width, texels) in [(50, eight), (64, eight), (51, four)] {
+            let texture = Texture::new(width, 30, texels).unwrap();
+            agree_with(&texture, RepeatPalette::new(&texture).unwrap());
+        }
+    }
+
     fn agree(texture: &Texture) {
-        let fast = Repeat565::new(texture).unwrap();
+        agree_with(texture, Repeat565::new(texture).unwrap());
+    }
+
+    fn agree_with<S: Sampler>(texture: &Texture, fast: S) {
         for case in cases() {
             let Some(t) = Triangle::new(case.v) else { continue };
             let any = General(texture);
