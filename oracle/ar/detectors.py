@@ -43,7 +43,7 @@ class AprilTag:
 class Scanout:
     """The example `detect` of scanout-ar, fed with pictures through a pipe."""
 
-    def __init__(self, program, dictionaries, camera=None, size=None, fps=None, filtered=False):
+    def __init__(self, program, dictionaries, camera=None, size=None, fps=None, filtered=False, again=False):
         options = []
         if camera is not None:
             lens = [camera.focal, camera.focal, *camera.centre, *camera.distortion]
@@ -52,6 +52,8 @@ class Scanout:
             options += ["--fps", str(fps)]
         if filtered:
             options.append("--filter")
+        if again:
+            options.append("--again")
         self.process = subprocess.Popen([program, *options, *dictionaries], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.words = 9 if camera is None else 21
         self.name = "scanout"

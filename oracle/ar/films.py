@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Poses over time, beside OpenCV's solver on the corners of OpenCV and AprilTag: flips, trembling, lag; and false markers.
+"""Poses over time, beside OpenCV's solver on the corners of OpenCV and AprilTag: flips, trembling; markers that are covered or smeared for
+some frames; and false markers.
 
     films.py --detect PROGRAM [--films N] [--photographs N] [--all-photographs] [--check]
 """
@@ -128,6 +129,52 @@ def trembling(arguments, photos, dictionary, camera):
     return result
 
 
+def torn(arguments, photos, dictionary, camera):
+    """Markers with a covered corner or smeared by motion, alone and looked for where they were; and none where none is any more."""
+    random = numpy.random.default_rng([arguments.seed, 4])
+    result = {}
+    for what in "covered corner", "smeared by 6 - 20 px":
+        count = {False: [0, []], True: [0, []]}
+        all_frames = changed = false = 0
+        for number in range(arguments.films):
+            side = numpy.exp(random.uniform(*numpy.log([24, 80])))
+            film = Film(random, photos, camera, dictionary, "clean", side, random.uniform(0, 50))
+            both = {again: detectors.Scanout(arguments.detect, ["apriltag36h11"], again=again) for again in count}
+            for index in range(arguments.length):
+                marker = film.marker(index / FPS)
+                canvas = film.photo.copy()
+                scenes.paint(canvas, camera, marker, film.black, film.white)
+                if index >= 3 and what == "covered corner":
+                    photo = photographs.crop(random, photos[random.integers(len(photos))], camera.width, camera.height)
+                    canvas = scenes.cover_corner(random, canvas, marker, camera, photo, number % 4)
+                elif index >= 3:
+                    canvas = scenes.motion(random, canvas, random.uniform(6, 20))
+                picture = scenes.finish(random, canvas, "clean")
+                found = {again: detector(picture)[0] for again, detector in both.items()}
+                truth = marker.corners(camera)
+                all_frames += 1
+                for again, markers in found.items():
+                    errors = [numpy.linalg.norm(c - truth, axis=1).mean() for n, c in markers if n == film.number]
+                    false += len(markers) - len(errors) + sum(error > side / 4 for error in errors)
+                    count[again][0] += bool(errors)
+                    count[again][1] += errors
+                for n, corners in found[False]:
+                    changed += not any(n == m and (corners == c).all() for m, c in found[True])
+            # The film is cut.
+            for _ in range(10):
+                picture = photographs.crop(random, photos[random.integers(len(photos))], camera.width, camera.height)
+                false += len(both[True](picture)[0])
+            for detector in both.values():
+                detector.close()
+        print(f"\nmarkers of 24 - 80 px, {what}, {all_frames} frames")
+        for again, (hits, errors) in count.items():
+            print(f"  {'looked for where it was' if again else 'each frame for itself':24} recall {100 * hits / all_frames:5.1f} %  "
+                  f"corners median {numpy.median(errors):.3f} px, 90 % {numpy.percentile(errors, 90):.3f} px")
+        print(f"  false or misplaced: {false}; otherwise than in single frames where found there: {changed}")
+        result[what] = 100 * (1 - count[True][0] / all_frames), false + changed
+    return result
+
+
 def false_markers(arguments, photos, camera):
     """Markers found where there are none, all dictionaries that the issue names at once."""
     random = numpy.random.default_rng([arguments.seed, 3])
@@ -156,11 +203,14 @@ def main():
     camera = scenes.Camera()
     false = false_markers(arguments, photos, camera)
     trembles = trembling(arguments, photos, dictionary, camera)
+    lost = torn(arguments, photos, dictionary, camera)
     flipped, poses = flips(arguments, photos, dictionary, camera)["scanout, filtered"]
     targets = [
         ("false markers", false, 0),
         ("trembling front-on, px", trembles["front-on", "scanout, filtered"], 0.35),
         ("trembling tilted, px", trembles["tilted 45 degrees", "scanout, filtered"], 0.05),
+        ("lost with a covered corner, %", lost["covered corner"][0], 5),
+        ("false, misplaced or changed in films", sum(bad for _, bad in lost.values()), 0),
         ("flipped poses, %", 100 * flipped / max(1, poses), 1),
     ]
     print()

@@ -187,6 +187,19 @@ def cover(random, canvas, marker, camera, photo):
     return canvas * (1 - part) + numpy.clip(photo * 0.5 + 110, 0, 255) * part
 
 
+def cover_corner(random, canvas, marker, camera, photo, corner):
+    """Something lies over a corner of the marker, 0 - 3, and a tenth to a half of both its sides."""
+    h = marker.size / 2
+    x, y = -h + random.uniform(0.1, 0.5, 2) * marker.size * [1, -1] + [0, 2 * h]
+    patch = numpy.array([[-h * 1.4, h * 1.4, 0], [x, h * 1.4, 0], [x, y, 0], [-h * 1.4, y, 0]])
+    turn, _ = cv2.Rodrigues(numpy.array([0, 0, corner * numpy.pi / 2]))
+    shape = camera.project(marker.in_camera(patch @ turn.T))
+    mask = numpy.zeros(canvas.shape, numpy.uint8)
+    cv2.fillConvexPoly(mask, numpy.round(shape * 16 - 8).astype(numpy.int32), 255, cv2.LINE_AA, 4)
+    part = mask / 255.0
+    return canvas * (1 - part) + numpy.clip(photo * 0.5 + 90, 0, 255) * part
+
+
 def finish(random, picture, name):
     """Applies a condition to a canvas of floats and makes it a picture of bytes."""
     noise = 1.0

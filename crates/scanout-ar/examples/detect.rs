@@ -7,6 +7,7 @@
 //!  --size S                            side of the markers
 //!  --fps N                             the pictures are frames of a film: poses are decided by the last frames
 //!  --filter                            and filtered
+//!  --again                             markers are looked for where they were in the last frame
 //! ```
 //!
 //! For each picture a line: the processor's time in microseconds, then for each marker `name:id:wrong bits:agreement`, eight coordinates, and with
@@ -26,11 +27,12 @@ struct Options {
     size: f64,
     fps: Option<f64>,
     filter: Option<OneEuro>,
+    again: bool,
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut dictionaries = Vec::new();
-    let mut options = Options { lens: None, size: 1.0, fps: None, filter: None };
+    let mut options = Options { lens: None, size: 1.0, fps: None, filter: None, again: false };
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
@@ -45,11 +47,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             "--size" => options.size = value()?.parse()?,
             "--fps" => options.fps = Some(value()?.parse()?),
             "--filter" => options.filter = Some(OneEuro::default()),
+            "--again" => options.again = true,
             name => dictionaries
                 .push(Dictionary::by_name(name).ok_or(format!("{name}: no such dictionary"))?),
         }
     }
     let mut detector = Detector::new(&dictionaries);
+    detector.film = options.again;
     let names: Vec<&str> = detector.dictionaries().iter().map(|d| d.name).collect();
     let mut tracks = HashMap::new();
     let mut input = BufReader::new(std::io::stdin().lock());

@@ -18,8 +18,11 @@ use crate::dictionary::Dictionary;
 use crate::edges;
 use crate::homography::Homography;
 use crate::image::{GreyImage, halve};
+use crate::near::{self, Wanted};
 use crate::pattern;
-use crate::quad::{Corners, from_outline, is_plausible, is_square_in_perspective, twice_area};
+use crate::quad::{
+    Corners, from_outline, is_plausible, is_square_in_perspective, shortest_side, twice_area,
+};
 use crate::threshold::{adaptive, columns, margin, words};
 use libm::sqrt;
 
@@ -64,11 +67,21 @@ pub struct Parameters {
     /// Part of the edges' contrast that the fitted pattern must explain, 0 - 1: for a pattern without wrong bits, and for one with wrong
     /// bits or of few bits.
     pub fit: (f64, f64),
+    /// What markers must have that are found near their last place.
+    pub near: Wanted,
 }
 
 impl Default for Parameters {
     fn default() -> Self {
-        Self { levels: 3, margin: None, least_side: 8, wrong: 3, agreement: 0.8, fit: (0.7, 0.85) }
+        Self {
+            levels: 3,
+            margin: None,
+            least_side: 8,
+            wrong: 3,
+            agreement: 0.8,
+            fit: (0.7, 0.85),
+            near: Wanted { seen: 0.5, agreement: 0.9 },
+        }
     }
 }
 
@@ -147,7 +160,7 @@ impl core::error::Error for DetectError {}
 /// Finds markers of `dictionaries` in a picture and writes them to `found`; returns how many. Those that don't fit are left out.
 ///
 /// Markers are dark on light paper; the paper must be seen all around, half a cell wide. A marker with a covered corner is not
-/// found.
+/// found; in a film, see [`detect_again`].
 ///
 /// # Errors
 /// [`DetectError`].
@@ -155,6 +168,26 @@ pub fn detect(
     image: &GreyImage,
     dictionaries: &[Dictionary],
     parameters: &Parameters,
+    memory: &mut Memory,
+    found: &mut [Detection],
+) -> Result<usize, DetectError> {
+    detect_again(image, dictionaries, parameters, &[], memory, found)
+}
+
+/// [`detect`] in the next frame of a film: markers of `last` that aren't found by their outlines are looked for up to four cells from
+/// where they were, and are found with a corner or a third covered, or smeared. Those that are found by their outlines are what
+/// [`detect`] finds.
+///
+/// `last` holds what was found in the last frame, by the same dictionaries, or where it is expected to be now; there may be several places
+/// for a marker, the likeliest first.
+///
+/// # Errors
+/// [`DetectError`].
+pub fn detect_again(
+    image: &GreyImage,
+    dictionaries: &[Dictionary],
+    parameters: &Parameters,
+    last: &[Detection],
     memory: &mut Memory,
     found: &mut [Detection],
 ) -> Result<usize, DetectError> {
@@ -197,6 +230,7 @@ pub fn detect(
             }
         });
     }
+    last.iter().for_each(|last| search.near(last));
     Ok(search.count)
 }
 
@@ -251,6 +285,30 @@ impl Search<'_> {
         detection.0.agreement = fitted.agreement;
         detection.0.blur = fitted.blur;
         self.add(detection.0);
+    }
+
+    /// Looks for a marker where it was, unless it was found within a side of that.
+    fn near(&mut self, last: &Detection) {
+        let Some(dictionary) = self.dictionaries.get(usize::from(last.dictionary)) else { return };
+        let Some(code) = dictionary.code(last.id.into()) else { return };
+        let close = |known: &&Detection| {
+            let far = distance(&known.corners, &last.corners);
+            known.dictionary == last.dictionary
+                && known.id == last.id
+                && far < sqrt(twice_area(&last.corners).max(0.0) / 2.0)
+        };
+        if self.found[..self.count].iter().any(|known| close(&known)) {
+            return;
+        }
+        let wanted = &self.parameters.near;
+        if let Some(fitted) = near::find(&self.levels, dictionary, code, &last.corners, wanted) {
+            let (corners, agreement) = (fitted.corners, fitted.agreement);
+            // Another lies there.
+            if self.is_known(&corners) {
+                return;
+            }
+            self.add(Detection { corners, agreement, blur: fitted.blur, wrong: 0, ..*last });
+        }
     }
 
     /// The best reading in any dictionary, and its turns.
@@ -323,21 +381,18 @@ impl Search<'_> {
 /// Cells of as many pixels are read on the next coarser level.
 const LARGE: f64 = 6.0;
 
-fn shortest_side(corners: &Corners) -> f64 {
-    let squared = (0..4).map(|i| {
-        let (a, b) = (corners[i], corners[(i + 1) % 4]);
-        (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])
-    });
-    sqrt(squared.fold(f64::INFINITY, f64::min))
-}
-
 /// Do two quadrilaterals cover nearly the same place: middles closer than a quarter of a side, areas within a factor of 2?
 fn same_place(a: &Corners, b: &Corners) -> bool {
+    let (p, q) = (twice_area(a), twice_area(b));
+    distance(a, b) < 0.25 * sqrt(p / 2.0) && p < 2.0 * q && q < 2.0 * p
+}
+
+/// From middle to middle.
+fn distance(a: &Corners, b: &Corners) -> f64 {
     let middle =
         |corners: &Corners, axis: usize| corners.iter().map(|c| c[axis]).sum::<f64>() / 4.0;
     let (dx, dy) = (middle(a, 0) - middle(b, 0), middle(a, 1) - middle(b, 1));
-    let (p, q) = (twice_area(a), twice_area(b));
-    sqrt(dx * dx + dy * dy) < 0.25 * sqrt(p / 2.0) && p < 2.0 * q && q < 2.0 * p
+    sqrt(dx * dx + dy * dy)
 }
 
 #[cfg(test)]
@@ -347,8 +402,16 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Detects in memory of exactly the size that is asked for.
     fn search(image: &GreyImage, dictionary: Dictionary) -> Vec<Detection> {
+        search_again(image, dictionary, &[])
+    }
+
+    /// Detects in memory of exactly the size that is asked for.
+    fn search_again(
+        image: &GreyImage,
+        dictionary: Dictionary,
+        last: &[Detection],
+    ) -> Vec<Detection> {
         let needed = Needed::for_size(image.width(), image.height());
         let mut memory = Memory {
             sums: &mut vec![7; needed.sums],
@@ -358,8 +421,8 @@ mod tests {
             points: &mut vec![[7; 2]; needed.points],
         };
         let mut found = [Detection::default(); 4];
-        let count =
-            detect(image, &[dictionary], &Parameters::default(), &mut memory, &mut found).unwrap();
+        let (all, parameters) = ([dictionary], Parameters::default());
+        let count = detect_again(image, &all, &parameters, last, &mut memory, &mut found).unwrap();
         found[..count].to_vec()
     }
 
@@ -405,6 +468,60 @@ mod tests {
             let pixels = vec![128; width * height];
             let image = GreyImage::new(width, height, width, &pixels).unwrap();
             assert_eq!(search(&image, Dictionary::ARUCO_4X4_50), []);
+        }
+    }
+
+    #[test]
+    fn a_covered_corner_does_not_lose_a_marker() {
+        for dictionary in [Dictionary::ARUCO_4X4_50, Dictionary::APRILTAG_36H11] {
+            let cell = 9;
+            let before = drawn(&dictionary, cell, 40);
+            let last = search(&GreyImage::new(320, 240, 320, &before).unwrap(), dictionary);
+            // Moved by two cells and a half, and a finger of two cells over its first corner.
+            let mut pixels = drawn(&dictionary, cell, 62);
+            let image = GreyImage::new(320, 240, 320, &pixels).unwrap();
+            let whole = search(&image, dictionary);
+            assert_eq!(search_again(&image, dictionary, &last), whole, "as without the last frame");
+            for (x, y) in (50..80).flat_map(|y| (50..80).map(move |x| (x, y))) {
+                pixels[y * 320 + x] = 150;
+            }
+            let image = GreyImage::new(320, 240, 320, &pixels).unwrap();
+            assert_eq!(search(&image, dictionary), [], "{}", dictionary.name);
+            let found = search_again(&image, dictionary, &last);
+            assert_eq!((found.len(), found[0].id), (1, 23), "{}", dictionary.name);
+            let pairs = found[0].corners.as_flattened().iter().zip(whole[0].corners.as_flattened());
+            for (got, want) in pairs {
+                assert!((got - want).abs() < 0.1, "{}: {found:?}", dictionary.name);
+            }
+        }
+    }
+
+    #[test]
+    fn a_marker_that_is_gone_is_not_found_again() {
+        let dictionary = Dictionary::ARUCO_4X4_50;
+        let marker = drawn(&dictionary, 9, 40);
+        let last = search(&GreyImage::new(320, 240, 320, &marker).unwrap(), dictionary);
+        let mut seed = 3u32;
+        let noise: Vec<u8> = (0..320 * 240)
+            .map(|_| {
+                seed = seed.wrapping_mul(1664525).wrapping_add(1013904223);
+                (seed >> 24) as u8
+            })
+            .collect();
+        // Another one in its place.
+        let other = drawn(&Dictionary::APRILTAG_36H11, 7, 40);
+        let even = vec![128; 320 * 240];
+        for pixels in [noise, other, even] {
+            let image = GreyImage::new(320, 240, 320, &pixels).unwrap();
+            assert_eq!(search_again(&image, dictionary, &last), []);
+        }
+        // Places that make no sense.
+        let image = GreyImage::new(320, 240, 320, &marker).unwrap();
+        for corners in [[[f64::NAN; 2]; 4], [[1e300; 2]; 4], [[5.0; 2]; 4]] {
+            for (dictionary_number, id) in [(0, 23), (0, 60_000), (200, 23)] {
+                let last = [Detection { dictionary: dictionary_number, id, corners, ..last[0] }];
+                assert_eq!(search_again(&image, dictionary, &last).len(), 1);
+            }
         }
     }
 

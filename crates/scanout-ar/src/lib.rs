@@ -26,6 +26,7 @@ pub mod homography;
 pub mod image;
 pub mod lens;
 pub mod line;
+pub mod near;
 pub mod pattern;
 pub mod pose;
 pub mod quad;

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! Neighbouring edges are part of the model, so that cells as narrow as the blur don't pull their border aside. black and white are
-//! planes over the marker. An edge whose profile doesn't fit - covered, in a shadow's edge - weighs less.
+//! planes over the marker. Blur may be wider in one direction, as motion makes it. An edge whose profile doesn't fit - covered, in a shadow's edge - weighs less.
 
 use crate::dictionary::Dictionary;
 use crate::homography::Homography;
@@ -24,7 +24,7 @@ use libm::sqrt;
 /// Samples of a profile, the middle one on the edge.
 const SAMPLES: usize = 7;
 /// Rounds at most.
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 8;
 /// Cells in a row at most, the border included.
 const MOST_CELLS: usize = 8;
 
@@ -33,10 +33,15 @@ const MOST_CELLS: usize = 8;
 pub struct Fitted {
     /// The corners, in the order of those that were given.
     pub corners: Corners,
-    /// Standard deviation of the blur across edges, pixels.
+    /// Standard deviation of the blur, the mean of all directions, pixels.
     pub blur: f64,
     /// How much of the profiles' contrast the model explains, 0 - 1.
     pub agreement: f64,
+    /// The part of the edges that is seen, of whose contrast the model explains more than half: the smaller part of the border's edges and
+    /// of those inside, which tell the marker from others.
+    pub seen: f64,
+    /// How much of the contrast of those it explains.
+    pub agreement_seen: f64,
 }
 
 /// Black and white, each a plane over the unit square: `[black, across, down, white, across, down]`.
@@ -58,10 +63,14 @@ pub fn refine(
     // Pixels relative to the marker, so that the equations are well scaled.
     let relative = corners.map(|[x, y]| [(x - centre[0]) / size, (y - centre[1]) / size]);
     let mut map = Homography::from_unit_square(&relative)?;
-    let mut blur = (cell * 0.3).clamp(0.6, 1.2);
+    let round_blur = (cell * 0.3).clamp(0.6, 1.2);
+    let mut blur = Blur {
+        square: [round_blur * round_blur, 0.0, round_blur * round_blur],
+        most: cell.max(0.7),
+    };
     let mut light = [black, 0.0, 0.0, white, 0.0, 0.0];
     let mut usual = f64::INFINITY;
-    let mut agreement = 0.0;
+    let (mut agreement, mut seen, mut agreement_seen) = (0.0, 0.0, 0.0);
     let per_edge = ((cell / 6.0) as usize).clamp(1, 2);
     for round in 0..ROUNDS {
         let cells = edges.cells as f64;
@@ -70,6 +79,7 @@ pub fn refine(
         edges.each(|across, line, k, row| {
             for step in 0..per_edge {
                 let along = 0.25 + 0.5 * (step as f64 + 0.5) / per_edge as f64;
+                sums.inside = (1..edges.cells).contains(&line);
                 view.profile(across, line as f64, k as f64 + along, row, &mut sums);
             }
         });
@@ -86,18 +96,23 @@ pub fn refine(
         if let Some(solved) = sums.light() {
             light = solved;
         }
-        if sums.blur.1 > 0.0 {
-            let change = (sums.blur.0 / sums.blur.1).clamp(-0.4 * blur, 0.4 * blur);
-            blur = (blur + change).clamp(0.35, (0.6 * cell).max(0.7));
-        }
+        blur.improve(&sums);
         usual = (sums.off.0 / sums.off.1.max(1.0)).max(0.02);
         agreement = 1.0 - sums.misfit.0 / sums.misfit.1.max(1e-9);
+        seen = sums.part_seen();
+        agreement_seen = 1.0 - sums.misfit_seen.0 / sums.misfit_seen.1.max(1e-9);
         if round > 0 && moved < 0.05 {
             break;
         }
     }
     let corners = corners_of(&map).map(|[x, y]| [x * size + centre[0], y * size + centre[1]]);
-    is_convex(&corners).then_some(Fitted { corners, blur, agreement })
+    is_convex(&corners).then_some(Fitted {
+        corners,
+        blur: blur.mean(),
+        agreement,
+        seen,
+        agreement_seen,
+    })
 }
 
 fn corners_of(map: &Homography) -> Corners {
@@ -143,6 +158,40 @@ impl Edges {
     }
 }
 
+/// Blur in every direction, as motion makes it: its variance along a unit vector n is n^T B n.
+#[derive(Clone, Copy)]
+struct Blur {
+    /// B: xx, xy, yy, squared pixels.
+    square: [f64; 3],
+    /// Greatest standard deviation, pixels.
+    most: f64,
+}
+
+impl Blur {
+    fn along(&self, [x, y]: [f64; 2]) -> f64 {
+        let [xx, xy, yy] = self.square;
+        let least = 0.35;
+        let variance = xx * x * x + 2.0 * xy * x * y + yy * y * y;
+        sqrt(variance.max(least * least)).min(self.most)
+    }
+
+    fn mean(&self) -> f64 {
+        (self.along([1.0, 0.0]) + self.along([0.0, 1.0])) / 2.0
+    }
+
+    /// One step of Gauss and Newton, by at most what is there. Edges of two directions don't tell three entries: those that they leave open
+    /// stay.
+    fn improve(&mut self, sums: &Sums) {
+        let mut matrix = sums.blur;
+        let damping = 1e-3 * (0..3).map(|i| matrix[i][i]).sum::<f64>();
+        (0..3).for_each(|i| matrix[i][i] += damping);
+        let Some(step) = solve(matrix, sums.blur_right) else { return };
+        let size = |square: &[f64; 3]| sqrt(square.iter().map(|entry| entry * entry).sum());
+        let part = (0.6 * size(&self.square) / size(&step).max(1e-9)).min(1.0);
+        self.square = core::array::from_fn(|i| self.square[i] + part * step[i]);
+    }
+}
+
 /// The state that profiles are compared with.
 struct View<'a> {
     image: &'a GreyImage<'a>,
@@ -150,7 +199,7 @@ struct View<'a> {
     centre: [f64; 2],
     size: f64,
     cells: f64,
-    blur: f64,
+    blur: Blur,
     light: Light,
     /// Usual distance of an edge from the model, pixels.
     usual: f64,
@@ -160,6 +209,7 @@ impl View<'_> {
     /// Compares one profile across the edge `line`, at `along` on it (cells), with the model. `row` tells which of the four cells
     /// around the edge are white: two before it, two behind.
     fn profile(&self, across: bool, line: f64, along: f64, row: u16, sums: &mut Sums) {
+        sums.all[usize::from(sums.inside)] += 1.0;
         let (u, v) = if across { (along, line) } else { (line, along) };
         let (u, v) = (u / self.cells, v / self.cells);
         let (at, d) = self.map.map_with_derivatives(u, v);
@@ -177,7 +227,8 @@ impl View<'_> {
             return;
         }
         // Half the profile: to the middles of the neighbouring cells, but not far beyond the blur.
-        let reach = (0.6 * cell).min(2.5 * self.blur + 1.0);
+        let blur = self.blur.along(normal);
+        let reach = (0.6 * cell).min(2.5 * blur + 1.0);
         let [x, y] = [0, 1].map(|i| at[i] * self.size + self.centre[i]);
         let [black, black_across, black_down, white, white_across, white_down] = self.light;
         let black = black + black_across * u + black_down * v;
@@ -192,7 +243,7 @@ impl View<'_> {
         let samples = self.image.line::<SAMPLES>(start, [over[0] * part, over[1] * part]);
         let mut values = [0.0; LANES];
         values[..SAMPLES].copy_from_slice(&samples);
-        let model = Profile::new(row, reach as f32, cell as f32, self.blur as f32);
+        let model = Profile::new(row, reach as f32, cell as f32, blur as f32);
         let fitted = model.compare(&values, black as f32, contrast as f32);
         if fitted.gg < 1e-6 {
             return;
@@ -203,6 +254,11 @@ impl View<'_> {
         let energy = SAMPLES as f64 * contrast * contrast / 4.0;
         sums.misfit.0 += misfit;
         sums.misfit.1 += energy;
+        if misfit < 0.5 * energy {
+            sums.misfit_seen.0 += misfit;
+            sums.misfit_seen.1 += energy;
+            sums.seen[usize::from(sums.inside)] += 1.0;
+        }
         sums.off.0 += off.abs();
         sums.off.1 += 1.0;
         let fits = 1.0 / (1.0 + misfit / (0.15 * energy));
@@ -214,8 +270,7 @@ impl View<'_> {
         let depth = -(at[0] * nx + at[1] * ny);
         sums.add_edge([nx, ny, depth], [u, v], off / self.size, weight);
         sums.add_light(&fitted, [u, v], robust);
-        sums.blur.0 += robust * fitted.rb;
-        sums.blur.1 += robust * fitted.bb;
+        sums.add_blur(&fitted, normal, blur, robust);
     }
 }
 
@@ -313,11 +368,19 @@ struct Sums {
     map_right: [[f64; 3]; 3],
     light: [[f64; 6]; 3],
     light_right: [[f64; 3]; 2],
-    blur: (f64, f64),
+    blur: [[f64; 3]; 3],
+    blur_right: [f64; 3],
     /// Sum of the distances, and how many.
     off: (f64, f64),
     /// Squared residuals and squared contrast.
     misfit: (f64, f64),
+    /// The same of profiles that are seen.
+    misfit_seen: (f64, f64),
+    /// How many profiles there are at the border and inside, and how many of them are seen.
+    all: [f64; 2],
+    seen: [f64; 2],
+    /// Is the next profile inside?
+    inside: bool,
 }
 
 /// Where the product of two of u, v, 1 stands.
@@ -344,6 +407,20 @@ impl Sums {
         for (sums, value) in self.light_right.iter_mut().zip(fit.values) {
             add_scaled(sums, &[u, v, 1.0], weight * value);
         }
+    }
+
+    fn part_seen(&self) -> f64 {
+        let part = |i: usize| self.seen[i] / self.all[i].max(1.0);
+        part(0).min(part(1))
+    }
+
+    fn add_blur(&mut self, fit: &Fit, [x, y]: [f64; 2], blur: f64, weight: f64) {
+        // How the blur along a normal follows its squares.
+        let row = [x * x, 2.0 * x * y, y * y].map(|part| part / (2.0 * blur));
+        for (sums, factor) in self.blur.iter_mut().zip(row) {
+            add_scaled(sums, &row, weight * fit.bb * factor);
+        }
+        add_scaled(&mut self.blur_right, &row, weight * fit.rb);
     }
 
     /// What is added to the map's entries.

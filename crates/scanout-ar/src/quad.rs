@@ -27,6 +27,15 @@ pub fn twice_area(corners: &Corners) -> f64 {
         .sum()
 }
 
+/// The length of the shortest side, pixels.
+pub fn shortest_side(corners: &Corners) -> f64 {
+    let squared = (0..4).map(|i| {
+        let (a, b) = (corners[i], corners[(i + 1) % 4]);
+        (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])
+    });
+    sqrt(squared.fold(f64::INFINITY, f64::min))
+}
+
 /// Do the corners turn the same way all around, clockwise on the screen?
 pub fn is_convex(corners: &Corners) -> bool {
     (0..4).all(|i| {

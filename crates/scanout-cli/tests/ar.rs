@@ -4,6 +4,7 @@ mod support;
 
 use std::fmt::Write as _;
 
+use scanout_ar::Dictionary;
 use serde_json::Value;
 use support::{model, run, run_with_input, scratch, stdout};
 
@@ -122,6 +123,104 @@ fn printed_markers_are_found_again() {
     let output = run(&["marker", "aruco4x4_50:50", "-o", &pdf]);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("aruco4x4_50:0 to aruco4x4_50:49"));
+}
+
+/// A grey picture of 640x480 of a board of 2 x 2 markers, numbers 10 to 13, 60 pixels wide and 15 apart, but for `hidden` ones.
+fn board(hidden: &[u16]) -> Vec<u8> {
+    let dictionary = Dictionary::ARUCO_4X4_50;
+    let mut picture = b"P5 640 480 255\n".to_vec();
+    picture.extend((0..640 * 480).map(|i| {
+        let place = |at: usize, start: usize| {
+            let at = at.checked_sub(start).filter(|at| *at < 135)?;
+            (at % 75 < 60).then_some((at / 75, at % 75 / 10))
+        };
+        let (Some((column, x)), Some((row, y))) = (place(i % 640, 200), place(i / 640, 150)) else {
+            return 230;
+        };
+        let id = 10 + 2 * row as u16 + column as u16;
+        let code = dictionary.code(id.into()).unwrap();
+        if hidden.contains(&id) || dictionary.is_white(code, x, y) { 230 } else { 25u8 }
+    }));
+    picture
+}
+
+#[test]
+fn a_board_is_where_any_of_its_markers_say() {
+    let file = path("board.pgm");
+    let pose = |hidden: &[u16], more: &[&str]| {
+        std::fs::write(&file, board(hidden)).unwrap();
+        let arguments = ["ar", "--marker", "aruco4x4_50:10", "--size", "20mm", "--source", &file];
+        let output = run(&[&arguments[..], &["--json", "-"], more].concat());
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{error}");
+        (poses(&stdout(&output)).remove(0), error)
+    };
+    let grid = ["--board", "2x2", "--gap", "5mm"];
+    // 3 pixels a millimetre. The board's middle is at (267.5, 217.5); a field of view of 60 degrees is 554.256 pixels.
+    let want = [-0.0175, -0.0075, 0.554256 / 3.0];
+    for hidden in [&[][..], &[10], &[11, 12], &[10, 11, 12]] {
+        let (line, _) = pose(hidden, &grid);
+        assert_eq!(line["markers"].as_array().unwrap().len(), 4 - hidden.len());
+        let slack = if hidden.len() == 3 { 0.001 } else { 0.0002 };
+        for (axis, want) in want.into_iter().enumerate() {
+            let got = line["pose"]["translation"][axis].as_f64().unwrap();
+            assert!((got - want).abs() < slack, "{hidden:?} {axis}: {got} m, not {want}");
+        }
+    }
+    let (line, error) = pose(&[10, 11, 12, 13], &grid);
+    assert!(line["pose"].is_null());
+    assert!(error.contains("no marker of the board is seen"), "{error}");
+    // Without --board the first marker alone counts: its own middle.
+    let (line, _) = pose(&[], &[]);
+    let x = line["pose"]["translation"][0].as_f64().unwrap();
+    assert!((x + 0.030).abs() < 0.0002, "{x}");
+    let (line, _) = pose(&[10], &[]);
+    assert!(line["pose"].is_null());
+}
+
+#[test]
+fn boards_that_cannot_be_say_why() {
+    for (more, what) in [
+        (&["--board", "2"][..], "is no grid"),
+        (&["--board", "0x2", "--gap", "5mm"], "is no grid"),
+        (&["--gap", "5mm"], "--board"),
+        (&["--board", "2x2"], "--gap"),
+    ] {
+        let (_, error, code) = ar(&[&["--source", &photograph(), "--json", "-"], more].concat());
+        assert_eq!(code, 2, "{more:?} {error}");
+        assert!(error.contains(what), "{more:?} {error}");
+    }
+}
+
+#[test]
+fn a_covered_corner_does_not_lose_the_marker() {
+    let folder = scratch("covered-corner");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::copy(photograph(), folder.join("0.png")).unwrap();
+    let source = folder.to_str().unwrap();
+    let (text, ..) = ar(&["--source", source, "--json", "-"]);
+    let corners = &poses(&text)[0]["markers"][0]["corners"];
+    let corner = [0, 1].map(|axis| corners[0][axis].as_f64().unwrap());
+    let mut picture = scanout_video::read_picture(photograph().as_ref()).unwrap();
+    for (i, pixel) in picture.rgb.iter_mut().enumerate() {
+        let place = [(i % picture.width) as f64, (i / picture.width) as f64];
+        if (0..2).all(|axis| (place[axis] - corner[axis]).abs() < 27.0) {
+            *pixel = [190, 150, 130];
+        }
+    }
+    let header = format!("P6 {} {} 255\n", picture.width, picture.height);
+    let bytes = [header.as_bytes(), picture.rgb.as_flattened()].concat();
+    std::fs::write(folder.join("1.ppm"), bytes).unwrap();
+    let (text, error, code) = ar(&["--source", source, "--json", "-", "--no-filter"]);
+    assert_eq!(code, 0, "{error}");
+    let lines = poses(&text);
+    let at = |i: usize, axis: usize| lines[i]["pose"]["translation"][axis].as_f64().unwrap();
+    for axis in 0..3 {
+        let (before, covered) = (at(0, axis), at(1, axis));
+        assert!((before - covered).abs() < 0.0005, "axis {axis}: {before} and {covered} m");
+    }
+    let (text, ..) = ar(&["--source", source, "--json", "-", "--no-tracking"]);
+    assert!(poses(&text)[1]["pose"].is_null());
 }
 
 #[test]

@@ -158,6 +158,9 @@ pub struct ArArgs {
     /// Show each frame's pose as it is measured
     #[arg(long)]
     pub no_filter: bool,
+    /// Look for the marker in each frame anew, not also where it was: then a covered corner loses it
+    #[arg(long)]
+    pub no_tracking: bool,
     /// Frames a second, where the source doesn't say it
     #[arg(long, value_name = "N", default_value_t = 30.0, value_parser = super::between(0.01, 1000.0))]
     pub fps: f64,

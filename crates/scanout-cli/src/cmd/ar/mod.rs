@@ -99,13 +99,15 @@ struct Augmenter {
 impl Augmenter {
     fn new(args: &ArArgs) -> Result<Self> {
         let filter = (!args.no_filter).then(OneEuro::default);
+        let mut detector = Detector::new(&[args.marker.dictionary]);
+        detector.film = !args.no_tracking;
         Ok(Self {
             marker: args.marker.to_string(),
             id: args.marker.id,
             size: args.size.0,
             board: args.board.zip(args.gap).map(|(grid, gap)| (grid, gap.0)),
             cameras: Cameras::new(args)?,
-            detector: Detector::new(&[args.marker.dictionary]),
+            detector,
             track: Track::new(filter),
             filter: filter.map(PoseFilter::new),
             overlay: args.model.as_ref().map(|model| Overlay::new(model, args)).transpose()?,
@@ -204,16 +206,21 @@ impl Augmenter {
             return;
         }
         self.was_seen = Some(seen);
-        let what = if self.board.is_some() { "no marker of the board" } else { &self.marker };
         if seen {
             narrate!("scanout: frame {}: the marker is seen again", self.frames);
-        } else if found.is_empty() || self.board.is_some() {
-            narrate!("scanout: frame {}: {what} is not seen", self.frames);
+        } else if self.board.is_some() {
+            narrate!("scanout: frame {}: no marker of the board is seen", self.frames);
+        } else if found.is_empty() {
+            narrate!("scanout: frame {}: {} is not seen", self.frames, self.marker);
         } else {
             let mut others: Vec<String> = found.iter().map(|one| one.id.to_string()).collect();
             others.dedup();
             let others = others.join(", ");
-            narrate!("scanout: frame {}: {what} is not seen, but {others} is", self.frames);
+            narrate!(
+                "scanout: frame {}: {} is not seen, but {others} is",
+                self.frames,
+                self.marker
+            );
         }
     }
 
