@@ -143,7 +143,7 @@ fn wrong_lines_and_files_are_told() {
     let bad = scratch("bad-head.csv");
     std::fs::write(&bad, "time_s,x_mm,y_mm,z_mm\n0,1,2\n").unwrap();
     let bad = bad.to_str().unwrap();
-    let lines: [(&[&str], i32, &str); 16] = [
+    let lines: [(&[&str], i32, &str); 17] = [
         (&["--head", "phone"], 2, "--head phone: no such source; one of"),
         (&["--head", "camera", "--marker", "aruco4x4_50:50"], 2, "no such marker; give"),
         (&["--head", "camera", "--source", "no such film"], 1, "no such film"),
@@ -157,6 +157,7 @@ fn wrong_lines_and_files_are_told() {
         (&["--swap-eyes"], 2, "--stereo"),
         (&["--head", "camera", "--face", "a.bin"], 2, "--eyes"),
         (&["--face", "a.bin", "--eyes", "b.bin", "--marker", "april:1"], 2, "--marker"),
+        (&["--face", "no.bin", "--eyes", "no.bin"], 2, "--head mouse: nobody would look; add"),
         (&["--head", "camera", "--face", "no.bin", "--eyes", "no.bin"], 1, "no.bin: no such file"),
         (&["--head", "camera", "--face", bad, "--eyes", bad], 1, "no cascade of faces: it begins"),
         (&["no such.obj"], 1, "no such.obj"),

@@ -58,6 +58,10 @@ const MOST_PICTURES: u32 = 100_000;
 pub fn run(args: &WindowArgs) -> Result<()> {
     let screen = screen(args)?;
     let epoch = Instant::now();
+    if args.face.is_some() && args.head != "camera" {
+        let what = format_args!("--face with --head {}: nobody would look", args.head).to_string();
+        return Err(Error::usage(what, "add --head camera"));
+    }
     if let Some(path) = &args.output {
         animation::container_for(path)?;
         let film = args.head == "camera" && is_film(&args.source);
