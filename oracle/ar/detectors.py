@@ -26,10 +26,14 @@ class OpenCv:
 
 
 class AprilTag:
+    # Never freed: pupil-apriltags sometimes frees memory twice then, and Python falls.
+    kept = []
+
     def __init__(self, decimate):
         import pupil_apriltags
 
         self.detector = pupil_apriltags.Detector(families="tag36h11", nthreads=1, quad_decimate=decimate)
+        self.kept.append(self.detector)
         self.name = f"AprilTag 3, decimation {decimate:g}"
 
     def __call__(self, picture):

@@ -222,5 +222,5 @@ def main():
 if __name__ == "__main__":
     code = main() or 0
     sys.stdout.flush()
-    # Without taking Python down: pupil-apriltags sometimes frees memory twice then.
+    # Without taking Python down, see detectors.AprilTag.
     os._exit(code)

@@ -137,5 +137,5 @@ def check(table, all_detectors):
 if __name__ == "__main__":
     code = main() or 0
     sys.stdout.flush()
-    # Without taking Python down: pupil-apriltags sometimes frees memory twice then.
+    # Without taking Python down, see detectors.AprilTag.
     os._exit(code)

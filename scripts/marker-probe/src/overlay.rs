@@ -2,7 +2,7 @@
 //! display.
 
 use scanout::camera::{Camera, Viewpoint};
-use scanout::frame::{Frame, ObjectState, Primitive, Settings, Store};
+use scanout::frame::{Band, Frame, ObjectState, Primitive, Settings, Store};
 use scanout::hash::FrameHash;
 use scanout::math::{Mat4, Vec3};
 use scanout::mesh::Mesh;
@@ -45,8 +45,25 @@ static EDGES: [[u16; 2]; 12] = [
     [3, 7],
 ];
 
-/// Draws the cube, if there is a pose, and gives the hash of the frame's RGB565 bytes.
-pub fn draw(camera: &[u8], lens: &Lens, pose: Option<&Pose>, size: f64) -> Option<u64> {
+/// The hash of the frame's RGB565 bytes.
+pub fn hash(camera: &[u8], lens: &Lens, pose: Option<&Pose>, size: f64) -> Option<u64> {
+    let mut hash = FrameHash::new(WIDTH as u16, HEIGHT as u16, Rgb565::ID);
+    draw(camera, lens, pose, size, |band| {
+        Rgb565::bytes(band.colour, band.colour.len(), &mut |bytes| hash.update(bytes));
+        Some(())
+    })?;
+    Some(hash.finish())
+}
+
+/// Draws the cube, if there is a pose, over the camera's picture, and hands the bands from the top to `send`. `None` when drawing or
+/// sending fails.
+pub fn draw(
+    camera: &[u8],
+    lens: &Lens,
+    pose: Option<&Pose>,
+    size: f64,
+    mut send: impl FnMut(&Band<Rgb565>) -> Option<()>,
+) -> Option<()> {
     let mesh = Mesh { positions: &POSITIONS, edges: &EDGES, ..Mesh::default() };
     let material = Material { colour: [255; 3], ..Material::default() };
     let transform = match pose {
@@ -61,23 +78,23 @@ pub fn draw(camera: &[u8], lens: &Lens, pose: Option<&Pose>, size: f64) -> Optio
     let store =
         Store { vertices: &mut vertices, primitives: &mut primitives, objects: &mut states };
     let frame = Frame::prepare(&scene, Settings::new(WIDTH as u16, HEIGHT as u16), store).ok()?;
-    let mut hash = FrameHash::new(WIDTH as u16, HEIGHT as u16, Rgb565::ID);
     const ROW: usize = WIDTH / 8;
     let (mut plane, mut depth) = ([0; ROW * ROWS], [0; WIDTH * ROWS]);
+    let mut words = [0; WIDTH * ROWS];
     let drawn = frame.draw_bands::<Mono, ()>(ROWS as u16, &mut plane, &mut depth, |band| {
-        for (y, bits) in band.colour.chunks(ROW).enumerate() {
+        let rows = band.colour.chunks(ROW).zip(words.chunks_mut(WIDTH)).enumerate();
+        for (y, (bits, words)) in rows {
             let row = &camera[(usize::from(band.top) + y) * WIDTH..][..WIDTH];
-            let mut words = [Default::default(); WIDTH];
             for (x, &grey) in row.iter().enumerate() {
-                Rgb565::store(&mut words, x, Rgb565::encode([grey; 3]));
+                Rgb565::store(words, x, Rgb565::encode([grey; 3]));
             }
-            mix_row::<Rgb565>(bits, &mut words, WIDTH, [0; 3]);
-            Rgb565::bytes(&words, WIDTH, &mut |bytes| hash.update(bytes));
+            mix_row::<Rgb565>(bits, words, WIDTH, [0; 3]);
         }
-        Ok(())
+        let colour = &words[..usize::from(band.rows) * WIDTH];
+        let Band { top, rows, width, .. } = band;
+        send(&Band { top, rows, width, colour, depth: &[] }).ok_or(())
     });
-    drawn.ok()?;
-    Some(hash.finish())
+    drawn.ok()
 }
 
 /// The cube's axes (side 1, on the paper) to the pipeline's eye: y and z turned about.
