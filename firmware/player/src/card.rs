@@ -10,7 +10,7 @@
 //!
 //! FAT32 and FAT16, blocks of 512 bytes. Names match without regard to the case of ASCII letters.
 
-use core::cell::Cell;
+use core::cell::{Cell, RefCell};
 use core::ops::ControlFlow;
 
 use embedded_sdmmc::filesystem::ToShortFileName;
@@ -62,9 +62,29 @@ struct Careful<'c, C> {
     bare: Option<u32>,
     cost: &'c Cell<Cost>,
     failed: &'c Cell<Option<Fault>>,
+    /// First sector of the volume's data; before it lie the tables of clusters.
+    data: u32,
+    /// The last sector of the tables that was read: embedded-sdmmc looks a cluster up for each sector of small clusters and keeps one
+    /// sector at a time, so it would ask for the same one again and again.
+    table: RefCell<Option<(u32, Block)>>,
 }
 
 impl<C: Card> Careful<'_, C> {
+    /// A sector, from memory where it is the table's last one.
+    fn fetch_or_keep(&self, block: &mut Block, sector: u32) -> Result<(), C::Error> {
+        if sector >= self.data {
+            return self.fetch(block, sector);
+        }
+        let mut table = self.table.borrow_mut();
+        if let Some((_, kept)) = table.as_ref().filter(|(kept, _)| *kept == sector) {
+            block.clone_from(kept);
+            return Ok(());
+        }
+        self.fetch(block, sector)?;
+        *table = Some((sector, block.clone()));
+        Ok(())
+    }
+
     fn fetch(&self, block: &mut Block, sector: u32) -> Result<(), C::Error> {
         let mut tries = 0;
         loop {
@@ -95,8 +115,8 @@ impl<C: Card> BlockDevice for Careful<'_, C> {
         for (block, index) in blocks.iter_mut().zip(start.0..) {
             match self.bare {
                 Some(sectors) if index == 0 => *block = partition_table(sectors),
-                Some(_) => self.fetch(block, index - 1)?,
-                None => self.fetch(block, index)?,
+                Some(_) => self.fetch_or_keep(block, index - 1)?,
+                None => self.fetch_or_keep(block, index)?,
             }
         }
         Ok(())
@@ -156,6 +176,12 @@ fn clusters(block: &Block) -> Result<u32, Fault> {
         }
         _ => Err(Fault::Format("its boot sector makes no sense")),
     }
+}
+
+/// Sectors of a volume before its root folder or its data: reserved ones and tables. Its boot sector makes sense.
+fn before_data(block: &Block) -> u32 {
+    let fat = if two(block, 22) != 0 { two(block, 22) } else { four(block, 36) };
+    fat.saturating_mul(block[16].into()).saturating_add(two(block, 14))
 }
 
 /// What sector 0 is.
@@ -221,22 +247,24 @@ pub fn with_files<C: Card, R>(
     };
     card.start().map_err(start)?;
     let failed = Cell::new(None);
-    let mut careful = Careful { card, bare: None, cost, failed: &failed };
+    let table = RefCell::new(None);
+    let mut careful = Careful { card, bare: None, cost, failed: &failed, data: 0, table };
     let mut block = Block::new();
     let told = |error: C::Error| failed.take().unwrap_or_else(|| start(error));
     careful.fetch(&mut block, 0).map_err(told)?;
-    let partition = match examine(&block)? {
+    let (partition, first) = match examine(&block)? {
         Sector0::Bare(sectors) => {
             careful.bare = Some(sectors);
-            0
+            (0, 0)
         }
         Sector0::Partition { index, first } => {
             let told = |error: C::Error| failed.take().unwrap_or_else(|| start(error));
             careful.fetch(&mut block, first).map_err(told)?;
-            index
+            (index, first)
         }
     };
     let clusters = clusters(&block)?;
+    careful.data = first.saturating_add(before_data(&block));
     let manager: Manager<'_, C> = VolumeManager::new_with_limits(careful, NoTime, 0);
     let told = |error| told_as(error, &failed, "");
     let volume = manager.open_volume(VolumeIdx(partition)).map_err(told)?;

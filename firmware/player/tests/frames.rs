@@ -60,14 +60,14 @@ fn bare_volumes_sub_directories_long_names_and_fragments() {
         let mut pieces = plain.clone();
         fragment(&mut pieces, if bare { 0 } else { 2048 * 512 });
         assert!(plain != pieces);
-        let mut sectors = 0;
+        let sectors: usize = files.iter().map(|(_, bytes)| bytes.len().div_ceil(512)).sum();
         for image in [plain, pieces] {
             let mut pc = Pc::new(image, Prank::None);
             assert_eq!(pc.play(), Ok(()), "bare: {bare}");
             assert_eq!(pc.hashes, hashes, "bare: {bare}");
-            // The same files: the same number of sectors.
-            assert!(sectors == 0 || sectors == pc.card.reads.get());
-            sectors = pc.card.reads.get();
+            // Each sector of the files once; folders and tables are a few more.
+            let reads = pc.card.reads.get() as usize;
+            assert!((sectors..sectors * 5 / 4).contains(&reads), "{reads} reads of {sectors}");
         }
     }
 }

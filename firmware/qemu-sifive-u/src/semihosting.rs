@@ -5,6 +5,8 @@
 use core::arch::asm;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
+use embedded_hal::delay::DelayNs;
+
 use crate::board::Clock;
 
 /// Opens a file: name, mode, length of the name. Gives a handle, or -1.
@@ -85,6 +87,8 @@ pub fn write(bytes: &[u8]) -> Result<(), Stuck> {
 
 /// Ends the emulator.
 pub fn exit(code: usize) -> ! {
+    // What the UART still has in its FIFO goes out first.
+    Clock.delay_ms(5);
     // SAFETY: the operation reads two words.
     unsafe { call(SYS_EXIT_EXTENDED, [APPLICATION_EXIT, code]) };
     loop {
