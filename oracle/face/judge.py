@@ -59,9 +59,9 @@ class Judge:
             self.failed = True
 
 
-def move(photograph, width, height, count, noise):
-    """Frames of somebody whose head goes 480 - 720 mm from the camera, aside, up and down, and leans by 12 degrees; with noise, and light
-    that changes. With each frame the map from the photograph to it, and the depth."""
+def move(photograph, width, height, count, noise, distance):
+    """Frames of somebody whose head goes to and fro by a fifth of `distance` mm, aside, up and down, and leans by 12 degrees; with noise, and
+    light that changes. With each frame the map from the photograph to it, and the depth."""
     random = numpy.random.default_rng(1)
     focal = width / 2 / numpy.tan(numpy.radians(FIELD_OF_VIEW / 2))
     span = PUPILS[1] - PUPILS[0]
@@ -70,7 +70,7 @@ def move(photograph, width, height, count, noise):
     fine = 4  # samples a pixel, each way
     for index in range(count):
         wave = numpy.sin(index / 30 * 2 * numpy.pi * numpy.array([0.23, 0.31, 0.41, 0.37]) + phases)
-        depth = 600 + 120 * wave[0]
+        depth = distance * (1 + 0.2 * wave[0])
         place = numpy.array([width * (0.5 + 0.12 * wave[1]), height * (0.5 + 0.08 * wave[2])])
         turn, scale = numpy.radians(12 * wave[3]) - level, focal * EYE_DISTANCE / depth / apart
         cos, sin = numpy.cos(turn) * scale, numpy.sin(turn) * scale
@@ -85,9 +85,9 @@ def move(photograph, width, height, count, noise):
         yield numpy.clip(numpy.round(frame), 0, 255).astype(numpy.uint8), matrix, offset, depth
 
 
-def moved(judge, width, height, noise, count=150):
+def moved(judge, width, height, noise, distance=600, count=150):
     photograph = cv2.imread(str(folder_of("skimage") / "data" / "astronaut.png"), cv2.IMREAD_GRAYSCALE)
-    frames, matrices, offsets, depths = zip(*move(photograph, width, height, count, noise))
+    frames, matrices, offsets, depths = zip(*move(photograph, width, height, count, noise, distance))
     path = judge.film(frames)
     for name, options in [("followed", []), ("found anew", ["--anew"])]:
         got = judge.ask(path, *options)
@@ -102,7 +102,7 @@ def moved(judge, width, height, noise, count=150):
         bias = 100 * (apart.mean() / (EYE_DISTANCE * width / 2 / numpy.tan(numpy.radians(FIELD_OF_VIEW / 2))) - 1)
         marked = numpy.hypot(*(home - PUPILS).T).max()
         ms = numpy.median([got[i][8] for i in seen])
-        print(f"photograph {width}x{height}, noise {noise}, {name:<10}: {len(seen)} of {count}; pupils {rms:.3f} px rms, depth {depth:.2f} % rms about {-bias:+.1f} %;"
+        print(f"photograph {width}x{height}, {distance} mm, noise {noise}, {name:<10}: {len(seen)} of {count}; pupils {rms:.3f} px rms, depth {depth:.2f} % rms about {-bias:+.1f} %;"
               f" from the marks {marked:.2f} px of the photograph; {ms:.1f} ms a frame")
         judge.demand("frames without the face", count - len(seen), 0)
         judge.demand("the pupils' rms", rms, 0.3)
@@ -189,6 +189,8 @@ def main():
     moved(judge, 400, 300, 3)
     moved(judge, 640, 480, 3)
     moved(judge, 400, 300, 8)
+    moved(judge, 400, 300, 3, 350, 60)
+    moved(judge, 400, 300, 3, 1100, 60)
     got, film = carphone(judge)
     if arguments.scanout:
         window(judge, film, arguments.scanout, got)
