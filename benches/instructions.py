@@ -5,8 +5,10 @@ Builds `count` for the generic target (no RUSTFLAGS), runs each case in valgrind
 divides the difference: loading and preparing data cancel out, and the count doesn't depend on the machine's load.
 Needs valgrind. With --hot CASE: the functions and lines in which a case spends its instructions.
 With --peers: the crates of the package registry that draw the same, instead of the tables.
+With --two CASE...: what two threads have to do, each part counted by doing it twice: the most that they can gain.
 
     python3 benches/instructions.py [--only TEXT] [--jobs N] [--commit NAME] [--hot CASE] [--peers]
+    python3 benches/instructions.py --two CASE...
 """
 
 import argparse
@@ -30,6 +32,8 @@ TGX = {"5000:flat": 2.37, "5000:gouraud": 2.72, "5000:textured": 3.05, "5000:wir
 SMALL3DLIB = {"5000:flat": 5.9, "5000:gouraud": 6.8, "5000:textured": 8.1}
 TARGET = {"5000:flat": 1.6, "5000:gouraud": 1.8, "5000:textured": 2.0, "5000:wire": 1.2, "70000:gouraud": 17.0}
 SCALAR_TARGET = {"5000:flat": 2.2, "5000:gouraud": 2.6, "5000:textured": 3.0}
+# Parts of a step and bands for two threads, as crates/scanout-cli/src/draw/threads.rs has them; frames to count.
+PARTS, BANDS, FRAMES = 8, 4, 9
 # Instructions a line.
 TINYGL = {"long": 1123, "short": 203}
 LINE_TARGET = {"long": 900, "short": 180}
@@ -125,6 +129,37 @@ def millions(value):
     return f"{value:.1f}" if value >= 10 else f"{value:.2f}"
 
 
+def span(parts):
+    """The longer of two threads' work, which take parts in turn, each the next when it has finished one."""
+    threads = [0.0, 0.0]
+    for part in parts:
+        threads[threads.index(min(threads))] += part
+    return max(threads)
+
+
+def show_two(count, cases, jobs):
+    """Two threads: PARTS parts of each step, BANDS bands, as `scanout` cuts a frame for them."""
+    rows = []
+    steps = {"vertices": PARTS, "primitives": PARTS, "bands": BANDS}
+    for case in cases:
+        divided = f"parts:{PARTS}:{BANDS}:{case}"
+        twice = [(step, f"twice:{step}:{k}:{divided}") for step, parts in steps.items() for k in range(parts)]
+        # Loading hashes with a random seed, so its count differs from run to run; many frames make that small.
+        work = [(name, frames) for name in (case, divided) for frames in (1, FRAMES)] + [(name, FRAMES) for _, name in twice]
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            counts = dict(zip(work, pool.map(lambda run: total(count, *run), work)))
+        one, all_parts = ((counts[name, FRAMES] - counts[name, 1]) / (FRAMES - 1) for name in (case, divided))
+        costs = [(step, (counts[name, FRAMES] - counts[divided, FRAMES]) / FRAMES) for step, name in twice]
+        spans = [span([cost for step, cost in costs if step == this]) for this in steps]
+        serial = max(0, all_parts - sum(cost for _, cost in costs))
+        most = one / (serial + sum(spans))
+        source, look, size = case.rsplit(":", 2)
+        name = f"{pathlib.Path(source).stem} {look} {size}"
+        rows.append([name, *(millions(v) for v in (one, all_parts, serial, *spans)), f"{most:.2f}"])
+    print(f"Two threads, {PARTS} parts a step, {BANDS} bands, millions of instructions; of the steps the longer thread's:\n")
+    table(["case", "one thread", "in parts", "by one thread", *steps, "at most"], rows)
+
+
 def main():
     """Counts and prints."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -133,10 +168,15 @@ def main():
     parser.add_argument("--commit", help="the name of what is measured, where there is no git")
     parser.add_argument("--hot", metavar="CASE", help="where a case spends its instructions")
     parser.add_argument("--peers", action="store_true", help="scanout against crates of the package registry")
+    parser.add_argument("--two", metavar="CASE", nargs="+", help="what two threads have to do")
     options = parser.parse_args()
     count = build(options.peers)
     if options.hot:
         hot(count, options.hot)
+        return
+    if options.two:
+        show_origin(options.commit)
+        show_two(count, options.two, options.jobs)
         return
     if options.peers:
         show_origin(options.commit)

@@ -12,6 +12,9 @@
 //! | `depth` | one value, depth interpolated and tested |
 //! | `full` | colour and depth: `walk` |
 //!
+//! A prefix `parts:N:B:` prepares in N parts and draws in B bands of equal work, one after another; with `twice:S:K:` before it, the
+//! K-th part of step S (`vertices`, `primitives`, `bands`) is done twice, which tells what it costs.
+//!
 //! With the feature `peers` the prefix `peer:NAME:` lets a peer draw the sphere (`embedded-3dgfx`, `euc`, `retrofire`)
 //! or the lines (`embedded-graphics`, `tiny-skia`).
 //!
@@ -22,10 +25,11 @@ use std::env;
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use scanout::frame::{Settings, Traversal};
+use scanout::frame::{Part, Settings, Traversal};
 use scanout::output::{PixelFormat, Rgb565};
 use scanout::raster::line::{Field, LineEnd, walk, walk_cells};
 use scanout_benches::lines::{self, CLIP, HEIGHT, Line, WIDTH};
+use scanout_benches::memory::Step;
 use scanout_benches::scenes::{Case, Data};
 
 fn main() -> ExitCode {
@@ -54,6 +58,9 @@ fn run(case: &str, frames: u32) -> Result<(), String> {
     #[cfg(feature = "peers")]
     if let Some(name) = case.strip_prefix("peer:") {
         return draw_peer(name, frames);
+    }
+    if case.starts_with("parts:") || case.starts_with("twice:") {
+        return draw_in_parts(case, frames);
     }
     let (case, prepare_only) = match case.strip_prefix("prepare:") {
         Some(rest) => (rest, true),
@@ -95,6 +102,38 @@ fn run(case: &str, frames: u32) -> Result<(), String> {
         }
     });
     Ok(())
+}
+
+fn draw_in_parts(case: &str, frames: u32) -> Result<(), String> {
+    let name = case;
+    let wrong = || format!("{name}: not [twice:STEP:K:]parts:N:B:CASE");
+    let number = |word: &str| word.parse::<u16>().map_err(|_| wrong());
+    let (mut case, mut twice) = (case, None);
+    if let Some(rest) = case.strip_prefix("twice:") {
+        let [step, k, rest] = words(rest).ok_or_else(wrong)?;
+        let step = match step {
+            "vertices" => Step::Vertices,
+            "primitives" => Step::Primitives,
+            "bands" => Step::Bands,
+            _ => return Err(wrong()),
+        };
+        (case, twice) = (rest, Some((step, number(k)?.into())));
+    }
+    let rest = case.strip_prefix("parts:").ok_or_else(wrong)?;
+    let [parts, bands, case] = words(rest).ok_or_else(wrong)?;
+    let (mut parts, bands) = (vec![Part::default(); number(parts)?.into()], number(bands)?);
+    Data::new(Case::parse(case)?)?.with(|scene, settings, memory| {
+        for _ in 0..frames {
+            memory.draw_in_parts(black_box(scene), settings, &mut parts, bands, twice);
+            black_box(&mut *memory);
+        }
+    });
+    Ok(())
+}
+
+/// Three words between colons, the last with all that follows.
+fn words(name: &str) -> Option<[&str; 3]> {
+    name.splitn(3, ':').collect::<Vec<_>>().try_into().ok()
 }
 
 fn line_set(name: &str) -> Result<Vec<Line>, String> {

@@ -17,6 +17,7 @@
 //!
 //! Each stage is a module of that name; its first lines give its equations, number formats and rounding. `frame` joins
 //! them: [`frame::Frame::prepare`] runs the first row of stages, [`frame::Frame::draw_rows`] the others.
+//! [`frame::Preparation`] and [`frame::Frame::bands`] cut both for threads, whose number no pixel depends on.
 //!
 //! # Conventions
 //!

@@ -78,6 +78,18 @@ pub struct Lighting {
     space: Space,
 }
 
+/// Diffuse white light from afar, for many vertices at once; all Q.14.
+// Only `avx2` looks into it.
+#[cfg_attr(not(all(feature = "simd", target_arch = "x86_64")), allow(dead_code))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlainLight {
+    /// Where light comes from, each coordinate in [-1, 1], and its weight in [0, 1]; the first `count`.
+    pub lamps: [([i32; 3], i32); MAX_LIGHTS],
+    pub count: usize,
+    pub ambient: i32,
+    pub floor: i32,
+}
+
 fn q14(v: Q16) -> i32 {
     v.0.clamp(0, 1 << 16) >> 2
 }
@@ -199,6 +211,20 @@ impl Lighting {
                 || !near && lights.iter().all(|l| l.colour == [l.colour[0]; 3]),
             space,
         }
+    }
+
+    /// The light, where it is white, from afar, and computed in the mesh's own coordinates.
+    pub(crate) fn plain(&self) -> Option<PlainLight> {
+        let lamp = |lamp: Lamp| match lamp.towards {
+            Towards::Direction(d) => (d, lamp.diffuse[0]),
+            Towards::Point(_) => ([0; 3], 0),
+        };
+        (self.plain && matches!(self.space, Space::Object)).then(|| PlainLight {
+            lamps: self.lamps.map(lamp),
+            count: self.count,
+            ambient: self.ambient,
+            floor: self.floor,
+        })
     }
 
     /// Whether light depends on where it falls: there are point lights or there is a shine.

@@ -5,7 +5,7 @@ mod common;
 
 use common::{Memory, Picture, camera, draw, material, object, scene, sphere};
 use scanout::camera::{Camera, projection};
-use scanout::frame::{Frame, Needed, Settings, Traversal};
+use scanout::frame::{Frame, Needed, Part, Preparation, Settings, Traversal};
 use scanout::math::{Angle, Mat4, Q16, Vec3};
 use scanout::mesh::{Mesh, Normals};
 use scanout::output::{Mono, PixelFormat, Rgb332, Rgb565, Rgb888};
@@ -18,6 +18,7 @@ fn check<F: PixelFormat>(name: &str, scene: &Scene) {
     let whole: Picture<F> = draw(scene, SIZE, SIZE.height, false);
     let background: Picture<F> = draw(&Scene { objects: &[], ..*scene }, SIZE, SIZE.height, false);
     assert!(whole != background, "{name}: nothing was drawn");
+    in_parts(name, scene, &whole);
     for dither in [false, true] {
         let settings = Settings { dither, ..SIZE };
         let whole: Picture<F> = draw(scene, settings, SIZE.height, false);
@@ -34,6 +35,59 @@ fn check<F: PixelFormat>(name: &str, scene: &Scene) {
             }
         }
     }
+}
+
+/// Prepared in parts, the last first, and drawn in bands of equal work: the same counts, the same pixels. So it is when the
+/// store has room for what is kept and no more, and when the caller forgets a part.
+fn in_parts<F: PixelFormat>(name: &str, scene: &Scene, whole: &Picture<F>) {
+    let most = Needed::at_most(scene);
+    for traversal in [Traversal::Spans, Traversal::Pixels] {
+        let settings = Settings { traversal, ..SIZE };
+        let mut memory = Memory::new(most);
+        let stats = Frame::prepare(scene, settings, memory.store()).unwrap().stats();
+        let kept = Needed { primitives: stats.primitives as usize, ..most };
+        for (parts, needed, forget) in (1..=5).map(|parts| (parts, most, None)).chain([
+            (3, kept, None),
+            (4, most, Some(Step::Vertices)),
+            (4, most, Some(Step::Primitives)),
+        ]) {
+            let mut memory = Memory::new(needed);
+            let mut memory_of_parts = vec![Part::default(); parts];
+            let mut preparation =
+                Preparation::new(scene, settings, memory.store(), &mut memory_of_parts).unwrap();
+            let mut vertices: Vec<_> = preparation.vertex_parts().collect();
+            if forget == Some(Step::Vertices) {
+                vertices.pop();
+            }
+            vertices.into_iter().rev().for_each(|part| part.run());
+            let mut primitives: Vec<_> = preparation.primitive_parts().collect();
+            if forget == Some(Step::Primitives) {
+                primitives.pop();
+            }
+            primitives.into_iter().rev().for_each(|part| part.run());
+            let frame = preparation.finish().unwrap();
+            let name = format!("{name}: {traversal:?}, {parts} parts, forgot {forget:?}");
+            assert_eq!(frame.stats(), stats, "{name}");
+            let words = F::words(SIZE.width as usize);
+            let mut colour = Vec::new();
+            let mut depth = Vec::new();
+            for rows in frame.bands(parts as u16) {
+                let mut band = vec![F::Word::default(); rows.len() * words];
+                let mut band_depth = vec![0; rows.len() * SIZE.width as usize];
+                frame.draw_rows::<F>(rows, &mut band, &mut band_depth).unwrap();
+                colour.append(&mut band);
+                depth.append(&mut band_depth);
+            }
+            assert!(*whole == Picture { colour, depth }, "{name}");
+        }
+    }
+}
+
+/// A step of preparing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Step {
+    Vertices,
+    Primitives,
 }
 
 fn checkerboard() -> Vec<[u8; 3]> {

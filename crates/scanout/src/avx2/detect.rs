@@ -5,7 +5,8 @@ use core::arch::x86_64::{__cpuid, __cpuid_count, _xgetbv};
 use core::sync::atomic::{AtomicU8, Ordering};
 
 use super::{EIGHT, Lanes, Pixels, Plain, Seen, Source, Triangles};
-use super::{edges, facing, planes, project, strips};
+use super::{edges, facing, light, planes, project, strips};
+use crate::light::PlainLight;
 use crate::transform::{ClipMatrix, Vertex, Viewport};
 
 /// Proof that AVX2, FMA and POPCNT can be used.
@@ -75,6 +76,11 @@ impl Avx2 {
         vertices: &mut [Vertex],
     ) {
         call!(project::project(viewport, clip, positions, rgb, vertices));
+    }
+
+    /// Lights vertices by their normals; as many as the shorter of both slices has.
+    pub fn light(self, light: &PlainLight, normals: &[[i16; 3]], vertices: &mut [Vertex]) {
+        call!(light::light(light, normals, vertices));
     }
 
     /// The next group in which triangles can be seen in a frame of this width and height, or that is not plain; and what there is to

@@ -11,6 +11,7 @@
 //! | module | does | scalar twin |
 //! |---|---|---|
 //! | `project` | positions to screen vertices, 4 at a time | `ClipMatrix::apply`, `Viewport::project` |
+//! | `light` | colours of 8 vertices under white light from afar | `Lighting::lit_in_mesh` |
 //! | `facing` | which of 8 triangles can be seen | `ObjectPass::triangles` |
 //! | `planes` | edges and planes of 8 triangles | `Triangle::new`, `Triangle::plane`, `TextureSetup::new` |
 //! | `edges` | edges of one colour, 8 at a time | `Field::line` |
@@ -27,6 +28,8 @@ mod detect;
 mod edges;
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 mod facing;
+#[cfg(all(feature = "simd", target_arch = "x86_64"))]
+mod light;
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 mod memory;
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]

@@ -1,6 +1,7 @@
 //! No AVX2: the token does not exist, so nothing of this is ever called.
 
 use super::{EIGHT, Lanes, Pixels, Plain, Seen, Source, Triangles};
+use crate::light::PlainLight;
 use crate::transform::{ClipMatrix, Vertex, Viewport};
 
 /// Cannot be had here.
@@ -22,6 +23,10 @@ impl Avx2 {
         _: [u8; 3],
         _: &mut [Vertex],
     ) {
+        match self {}
+    }
+    /// Not reached.
+    pub fn light(self, _: &PlainLight, _: &[[i16; 3]], _: &mut [Vertex]) {
         match self {}
     }
     /// Not reached.

@@ -52,25 +52,37 @@ impl<'a> Frame<'a> {
         };
         target.clear(&self.scene.background);
         let mut lights = None;
-        let mut rest = self.primitives;
+        for list in self.lists() {
+            self.draw_list(list, &mut lights, &mut target);
+        }
+        Ok(())
+    }
+
+    /// Draws primitives in their order, those of one object after another.
+    fn draw_list<F: PixelFormat>(
+        &self,
+        list: &[Primitive],
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+    ) {
+        let mut rest = list;
         while let Some(first) = rest.first() {
             let same = |p: &&Primitive| p.object == first.object;
             let (run, others) = rest.split_at(rest.iter().take_while(same).count());
             rest = others;
-            match self.source(first.object, &target) {
+            match self.source(first.object, target) {
                 Some(source) if target.pixels().is_some() => {
-                    self.draw_groups(&source, run, &mut lights, &mut target);
+                    self.draw_groups(&source, run, lights, target);
                 }
-                Some(source) => self.draw_plain(&source, run, &mut lights, &mut target),
+                Some(source) => self.draw_plain(&source, run, lights, target),
                 None => {
                     let rows = target.rows.clone();
                     for primitive in run.iter().filter(|p| p.touches(&rows)) {
-                        self.draw_primitive(primitive, &mut lights, &mut target);
+                        self.draw_primitive(primitive, lights, target);
                     }
                 }
             }
         }
-        Ok(())
     }
 
     /// [`draw_rows`](Self::draw_rows) for RGB565, compiled with this crate instead of with its caller: so a program that is

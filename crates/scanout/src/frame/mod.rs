@@ -9,6 +9,7 @@
 //! Preparing transforms and lights every vertex once and lists what will be drawn. Drawing reads that list and
 //! changes nothing in it, so bands may be drawn in any order, any height, by several threads: the pixels are the
 //! same. A primitive's planes are functions of the frame, not of the band, and are set up anew in each band that it touches.
+//! [`Preparation`] divides preparing in the same way, and [`Frame::bands`] cuts the rows into bands of about equal work.
 //!
 //! | memory | bytes |
 //! |---|---|
@@ -20,8 +21,11 @@
 //! Order: primitives are drawn in the order of the scene's objects and, within one, of its triangles, edges, points. What it will
 //! not do: transparency, sorting.
 
+mod bands;
+mod check;
 mod draw;
 mod fragment;
+mod parts;
 mod prepare;
 mod target;
 
@@ -34,6 +38,9 @@ use crate::scene::Scene;
 use crate::shade::FogWeights;
 use crate::texture::TextureError;
 use crate::transform::{ClipMatrix, Vertex};
+
+pub use bands::Bands;
+pub use parts::{Part, Preparation, PrimitivePart, VertexPart};
 
 /// The largest width and height of a frame.
 pub const MAX_SIDE: u16 = 4096;
@@ -397,7 +404,9 @@ pub struct Frame<'a> {
     scene: &'a Scene<'a>,
     settings: Settings,
     vertices: &'a [Vertex],
+    /// All primitives; or, where there are parts, the memory that these have their lists in.
     primitives: &'a [Primitive],
+    parts: &'a [Part],
     objects: &'a [ObjectState],
     fog: Option<FogWeights>,
     stats: Stats,
@@ -407,6 +416,13 @@ impl<'a> Frame<'a> {
     /// Counts of what was prepared.
     pub fn stats(&self) -> Stats {
         self.stats
+    }
+
+    /// The primitives in the order of drawing, list by list.
+    fn lists(&self) -> impl Iterator<Item = &'a [Primitive]> {
+        let (primitives, parts) = (self.primitives, self.parts);
+        let whole = parts.is_empty().then_some(primitives);
+        whole.into_iter().chain(parts.iter().map(|part| &primitives[part.listed()]))
     }
 
     /// The settings it was prepared with.

@@ -2,22 +2,23 @@
 
 use core::ops::Range;
 
-use super::{
-    BACK, CLIPPED, Frame, Kind, MAX_SIDE, Needed, ObjectState, PrepareError, Primitive, Settings,
-};
-use super::{Stats, Store, Traversal, UNSEEN};
+use super::check::check;
+use super::{BACK, CLIPPED, Frame, Kind, Needed, ObjectState, Part, PrepareError, Primitive};
+use super::{Settings, Stats, Store, Traversal, UNSEEN};
 use crate::avx2::{Avx2, EIGHT, Seen};
 use crate::clip::{self, Corner};
 use crate::cull::{Facing, facing, facing_in_clip_space, sphere_outside};
 use crate::features;
-use crate::light::{Lighting, MAX_LIGHTS, plainly_lit};
+use crate::light::{Lighting, PlainLight};
 use crate::math::normalise_q14;
 use crate::mesh::{Mesh, Normals};
-use crate::scene::{Background, Light, Mode, Object, Scene};
+use crate::scene::{Mode, Object, Scene};
 use crate::setup::{first_pixel, signed_area};
 use crate::shade::{FogWeights, modulate};
-use crate::texture::{Repeat565, RepeatPalette, Texture};
 use crate::transform::{CLIP, ClipMatrix, FAR, NEAR, Vertex, Viewport};
+
+/// Edges that may become one primitive.
+pub(super) const TOGETHER: usize = 32;
 
 /// The most primitives that an object can make.
 pub(super) fn most_primitives(object: &Object) -> usize {
@@ -51,7 +52,8 @@ pub(super) fn geometric_normal(mesh: &Mesh, triangle: [u16; 3]) -> [i16; 3] {
 }
 
 impl<'a> Frame<'a> {
-    /// Prepares a scene: transforms, lights and culls into the caller's memory.
+    /// Prepares a scene: transforms, lights and culls into the caller's memory. [`Preparation`](super::Preparation) is
+    /// the same in parts, for several threads.
     ///
     /// # Errors
     /// As [`PrepareError`] lists; a store that is too small is told how much is needed, and nothing is drawn with
@@ -61,6 +63,30 @@ impl<'a> Frame<'a> {
         settings: Settings,
         store: Store<'a>,
     ) -> Result<Frame<'a>, PrepareError> {
+        let (outline, vertices, primitives) = Outline::new(scene, settings, store)?;
+        outline.prepare(vertices, primitives)
+    }
+}
+
+/// What is known of a frame before its first vertex: the scene is in order, and which objects are seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outline<'a> {
+    pub scene: &'a Scene<'a>,
+    pub settings: Settings,
+    pub objects: &'a [ObjectState],
+    /// Vertices of the objects that are seen.
+    pub vertices: usize,
+    given: Needed,
+    avx2: Option<Avx2>,
+}
+
+impl<'a> Outline<'a> {
+    /// Checks the scene and looks at its objects. The store's vertices suffice; its primitives may not.
+    pub fn new(
+        scene: &'a Scene<'a>,
+        settings: Settings,
+        store: Store<'a>,
+    ) -> Result<(Outline<'a>, &'a mut [Vertex], &'a mut [Primitive]), PrepareError> {
         check(scene, &settings)?;
         let given = Needed {
             vertices: store.vertices.len(),
@@ -70,13 +96,9 @@ impl<'a> Frame<'a> {
         if given.objects < scene.objects.len() {
             return Err(PrepareError::Store { needed: Needed::at_most(scene), given });
         }
-        let Store { vertices, primitives, objects } = store;
-        let avx2 = if settings.traversal == Traversal::Spans { Avx2::detect() } else { None };
         let world_to_clip = scene.camera.projection.mul(&scene.camera.view);
-        let mut list = List { primitives, len: 0, stats: Stats::default() };
         let mut vertices_needed = 0;
-        // First how many vertices are needed, so that the error can name it.
-        for (state, object) in objects.iter_mut().zip(scene.objects) {
+        for (state, object) in store.objects.iter_mut().zip(scene.objects) {
             let clip = ClipMatrix::new(&world_to_clip.mul(&object.transform));
             let seen = !object.mesh.bounds.is_some_and(|sphere| sphere_outside(&clip, &sphere));
             let first_vertex = if seen { vertices_needed as u32 } else { UNSEEN };
@@ -89,159 +111,96 @@ impl<'a> Frame<'a> {
             let needed = Needed { vertices: vertices_needed, ..Needed::at_most(scene) };
             return Err(PrepareError::Store { needed, given });
         }
-        for (index, object) in scene.objects.iter().enumerate() {
-            let state = objects[index];
-            if state.first_vertex == UNSEEN {
+        let outline = Outline {
+            scene,
+            settings,
+            objects: &store.objects[..scene.objects.len()],
+            vertices: vertices_needed,
+            given,
+            avx2: if settings.traversal == Traversal::Spans { Avx2::detect() } else { None },
+        };
+        Ok((outline, store.vertices, store.primitives))
+    }
+
+    /// All that follows, by one thread.
+    pub fn prepare(
+        &self,
+        vertices: &'a mut [Vertex],
+        primitives: &'a mut [Primitive],
+    ) -> Result<Frame<'a>, PrepareError> {
+        let mut list = List { primitives, len: 0, stats: Stats::default() };
+        for index in 0..self.objects.len() {
+            let Some((pass, first)) = self.pass(index) else {
                 list.stats.objects_culled += 1;
                 continue;
-            }
-            let first = state.first_vertex as usize;
-            let own = &mut vertices[first..first + object.mesh.positions.len()];
-            ObjectPass {
-                scene,
-                settings: &settings,
-                viewport: Viewport::new(settings.width, settings.height),
-                object,
-                index,
-                clip: &state.clip,
-                avx2,
-                whole: match (object.mode, object.mesh.normals) {
-                    (Mode::Flat, _) => true,
-                    (Mode::Gouraud, normals) => !matches!(normals, Normals::Vertex(_)),
-                    _ => false,
-                },
-            }
-            .run(own, &mut list)?;
+            };
+            let own = &mut vertices[first..first + pass.object.mesh.positions.len()];
+            pass.run(own, &mut list)?;
         }
         let List { primitives, len, mut stats } = list;
         if len > primitives.len() {
             let needed =
-                Needed { vertices: vertices_needed, primitives: len, objects: scene.objects.len() };
-            return Err(PrepareError::Store { needed, given });
+                Needed { vertices: self.vertices, primitives: len, objects: self.objects.len() };
+            return Err(PrepareError::Store { needed, given: self.given });
         }
-        stats.vertices = vertices_needed as u32;
         stats.primitives = len as u32;
-        Ok(Frame {
+        Ok(self.frame(vertices, &primitives[..len], &[], stats))
+    }
+
+    /// One object's way through the first stages, and the index of its first vertex; `None` when it is not seen.
+    #[inline]
+    pub fn pass(&self, index: usize) -> Option<(ObjectPass<'a>, usize)> {
+        let (state, object) = (&self.objects[index], &self.scene.objects[index]);
+        let pass = ObjectPass {
+            scene: self.scene,
+            settings: self.settings,
+            viewport: Viewport::new(self.settings.width, self.settings.height),
+            object,
+            index,
+            clip: &state.clip,
+            avx2: self.avx2,
+            whole: match (object.mode, object.mesh.normals) {
+                (Mode::Flat, _) => true,
+                (Mode::Gouraud, normals) => !matches!(normals, Normals::Vertex(_)),
+                _ => false,
+            },
+        };
+        (state.first_vertex != UNSEEN).then_some((pass, state.first_vertex as usize))
+    }
+
+    /// The passes of the objects that are seen.
+    pub fn passes(&self) -> impl Iterator<Item = (ObjectPass<'a>, usize)> {
+        (0..self.objects.len()).filter_map(|index| self.pass(index))
+    }
+
+    /// The finished frame; `stats` lacks the vertices.
+    pub fn frame(
+        &self,
+        vertices: &'a [Vertex],
+        primitives: &'a [Primitive],
+        parts: &'a [Part],
+        stats: Stats,
+    ) -> Frame<'a> {
+        let scene = self.scene;
+        Frame {
             scene,
-            settings,
-            vertices: &vertices[..vertices_needed],
-            primitives: &primitives[..len],
-            objects: &objects[..scene.objects.len()],
+            settings: self.settings,
+            vertices: &vertices[..self.vertices],
+            primitives,
+            parts,
+            objects: self.objects,
             fog: scene.fog.as_ref().filter(|_| features::FOG).map(FogWeights::new),
-            stats,
-        })
-    }
-}
-
-/// Checks everything that drawing relies on, so that drawing cannot fail.
-fn check(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
-    let (width, height) = (settings.width, settings.height);
-    if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
-        return Err(PrepareError::Size { width, height });
-    }
-    if scene.lights.len() > MAX_LIGHTS {
-        return Err(PrepareError::Lights(scene.lights.len()));
-    }
-    if scene.objects.len() > 1 << 16 {
-        return Err(PrepareError::Objects(scene.objects.len()));
-    }
-    if let Background::Image(pixels) = scene.background {
-        let needed = width as usize * height as usize;
-        if pixels.len() != needed {
-            return Err(PrepareError::Background { needed, given: pixels.len() });
+            stats: Stats { vertices: self.vertices as u32, ..stats },
         }
-    }
-    for (index, object) in scene.objects.iter().enumerate() {
-        let mesh = object.mesh;
-        let parallel = |len: usize, with: usize| len == 0 || len == with;
-        let normals_fit = match mesh.normals {
-            Normals::None => true,
-            Normals::Vertex(n) => n.len() == mesh.positions.len(),
-            Normals::Face(n) => n.len() == mesh.triangles.len(),
-        };
-        if !normals_fit
-            || !parallel(mesh.colours.len(), mesh.positions.len())
-            || !parallel(mesh.uv_triangles.len(), mesh.triangles.len())
-        {
-            return Err(PrepareError::Lengths { object: index });
-        }
-        // The greatest first, which is quick; then, where that is too great, whose it is.
-        let most = mesh.uv_triangles.as_flattened().iter().fold(0, |most, &t| t.max(most));
-        if most as usize >= mesh.uvs.len() && !mesh.uv_triangles.is_empty() {
-            let beyond = |uvs: &[u16; 3]| uvs.iter().any(|&t| t as usize >= mesh.uvs.len());
-            let element = mesh.uv_triangles.iter().position(beyond).unwrap_or(0);
-            return Err(PrepareError::Index { object: index, element });
-        }
-        if let Some(texture) = object.material.texture {
-            texture.check().map_err(|error| PrepareError::Texture { object: index, error })?;
-        }
-    }
-    compiled_in(scene, settings)
-}
-
-/// Checks that nothing is asked for that the features leave out.
-fn compiled_in(scene: &Scene, settings: &Settings) -> Result<(), PrepareError> {
-    let refuse = |object, feature| Err(PrepareError::Feature { object, feature });
-    if !features::DITHER && settings.dither {
-        return refuse(None, "dither");
-    }
-    if !features::FOG && scene.fog.is_some() {
-        return refuse(None, "fog");
-    }
-    if !features::BACKGROUND_IMAGES && matches!(scene.background, Background::Image(_)) {
-        return refuse(None, "background-images");
-    }
-    if !features::ALL_LIGHTS && !scene.lights.iter().all(Light::is_plain) {
-        return refuse(None, "all-lights");
-    }
-    for (index, object) in scene.objects.iter().enumerate() {
-        let mode = match object.mode {
-            Mode::Points if !features::POINTS => Some("points"),
-            Mode::Wire | Mode::Hidden if !features::LINES => Some("lines"),
-            Mode::Wire | Mode::Hidden if !features::SMOOTH_LINES && object.smooth_lines => {
-                Some("smooth-lines")
-            }
-            Mode::Gouraud if !features::GOURAUD => Some("gouraud"),
-            Mode::Phong if !features::PHONG => Some("phong"),
-            _ => None,
-        };
-        let filled = matches!(object.mode, Mode::Flat | Mode::Gouraud | Mode::Phong);
-        let (material, mesh) = (object.material, object.mesh);
-        let feature = mode.or(if !features::TWO_SIDED && material.two_sided {
-            Some("two-sided")
-        } else if !features::VERTEX_COLOURS && !mesh.colours.is_empty() {
-            Some("vertex-colours")
-        } else if !features::ALL_LIGHTS && filled && !plainly_lit(scene, object) {
-            Some("all-lights")
-        } else if filled && !mesh.uv_triangles.is_empty() {
-            material.texture.and_then(left_out)
-        } else {
-            None
-        });
-        if let Some(feature) = feature {
-            return refuse(Some(index), feature);
-        }
-    }
-    Ok(())
-}
-
-/// The feature that a texture needs and that is not there.
-fn left_out(texture: &Texture) -> Option<&'static str> {
-    if features::ALL_TEXTURES || Repeat565::new(texture).is_some() {
-        return None;
-    }
-    match RepeatPalette::new(texture) {
-        Some(_) if features::PALETTE_TEXTURES => None,
-        Some(_) => Some("palette-textures"),
-        None => Some("all-textures"),
     }
 }
 
 /// The primitives so far; counts on when the memory is full.
-struct List<'a> {
-    primitives: &'a mut [Primitive],
-    len: usize,
-    stats: Stats,
+#[derive(Debug)]
+pub(super) struct List<'a> {
+    pub primitives: &'a mut [Primitive],
+    pub len: usize,
+    pub stats: Stats,
 }
 
 impl List<'_> {
@@ -257,20 +216,51 @@ impl List<'_> {
 /// The top bit of a projected vertex's `inv_w`, which is always set; cleared it marks a vertex that must be lit.
 const UNMARKED: u32 = 1 << 31;
 
-/// Marks a triangle's vertices to be lit.
-#[inline]
-fn mark(vertices: &mut [Vertex], triangle: [u16; 3]) {
-    for i in triangle {
-        vertices[i as usize].inv_w &= !UNMARKED;
+/// An object's vertices while its triangles are culled.
+pub(super) trait Transformed {
+    fn vertices(&self) -> &[Vertex];
+    /// The triangle is kept.
+    fn keep(&mut self, triangle: [u16; 3]);
+}
+
+/// Vertices that are lit already, or not at all: several threads may look at them.
+impl Transformed for &[Vertex] {
+    #[inline]
+    fn vertices(&self) -> &[Vertex] {
+        self
+    }
+    #[inline]
+    fn keep(&mut self, _: [u16; 3]) {}
+}
+
+/// Vertices that are marked when they are needed, to be lit afterwards.
+struct Marked<'v> {
+    vertices: &'v mut [Vertex],
+    lit_later: bool,
+}
+
+impl Transformed for Marked<'_> {
+    #[inline]
+    fn vertices(&self) -> &[Vertex] {
+        self.vertices
+    }
+    #[inline]
+    fn keep(&mut self, triangle: [u16; 3]) {
+        if self.lit_later {
+            for i in triangle {
+                self.vertices[i as usize].inv_w &= !UNMARKED;
+            }
+        }
     }
 }
 
 /// One object on its way through the first stages.
-struct ObjectPass<'a> {
+#[derive(Debug)]
+pub(super) struct ObjectPass<'a> {
     scene: &'a Scene<'a>,
-    settings: &'a Settings,
+    settings: Settings,
     viewport: Viewport,
-    object: &'a Object<'a>,
+    pub object: &'a Object<'a>,
     index: usize,
     clip: &'a ClipMatrix,
     avx2: Option<Avx2>,
@@ -279,43 +269,100 @@ struct ObjectPass<'a> {
 }
 
 impl ObjectPass<'_> {
+    /// The whole object. Where lighting takes long, only vertices of triangles that are kept are lit.
     fn run(&self, vertices: &mut [Vertex], list: &mut List) -> Result<(), PrepareError> {
-        let lighting = lighting(self.scene, self.object);
-        self.transform(vertices);
-        match self.object.mode {
-            Mode::Points if features::POINTS => self.points(vertices, list),
-            Mode::Wire if features::LINES => self.edges(vertices, list)?,
-            Mode::Hidden if features::LINES => {
-                self.triangles(vertices, &lighting, Kind::Mask, list)?;
-                self.edges(vertices, list)?;
-            }
-            _ => {
-                self.triangles(vertices, &lighting, Kind::Triangle, list)?;
-                if let Some(normals) = self.vertex_normals() {
-                    self.light(vertices, normals, &lighting);
-                }
-            }
+        let lighting = self.lighting();
+        self.transform(0..vertices.len(), vertices);
+        let normals = self.vertex_normals();
+        let plain = normals.and_then(|_| self.plain(&lighting));
+        if let (Some(normals), Some((avx2, light))) = (normals, plain) {
+            avx2.light(&light, normals, vertices);
+        }
+        let lit_later = normals.is_some() && plain.is_none();
+        let mut marked = Marked { vertices, lit_later };
+        self.list(0..most_primitives(self.object), &mut marked, &lighting, list)?;
+        if let (Some(normals), true) = (normals, lit_later) {
+            self.light_marked(marked.vertices, normals, &lighting);
         }
         Ok(())
     }
 
+    /// Transform and light: vertices of some positions.
+    pub fn run_vertices(&self, positions: Range<usize>, vertices: &mut [Vertex]) {
+        self.transform(positions.clone(), vertices);
+        let Some(normals) = self.vertex_normals() else { return };
+        let normals = &normals[positions.clone()];
+        let lighting = self.lighting();
+        if let Some((avx2, light)) = self.plain(&lighting) {
+            return avx2.light(&light, normals, vertices);
+        }
+        let positions = &self.object.mesh.positions[positions];
+        for ((vertex, &normal), &position) in vertices.iter_mut().zip(normals).zip(positions) {
+            vertex.rgb = lighting.lit_in_mesh(vertex.rgb, normal, position);
+        }
+    }
+
+    /// Cull: primitives with these numbers, which [`most_primitives`] counts; `vertices` are all of the object's.
+    pub fn run_primitives(
+        &self,
+        numbers: Range<usize>,
+        mut vertices: &[Vertex],
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
+        self.list(numbers, &mut vertices, &self.lighting(), list)
+    }
+
+    /// The lights as the object sees them.
+    fn lighting(&self) -> Lighting {
+        lighting(self.scene, self.object)
+    }
+
+    /// Light that eight vertices at a time can be lit by.
+    fn plain(&self, lighting: &Lighting) -> Option<(Avx2, PlainLight)> {
+        self.avx2.zip(lighting.plain())
+    }
+
     /// Transform: positions to screen vertices.
-    fn transform(&self, vertices: &mut [Vertex]) {
+    fn transform(&self, positions: Range<usize>, vertices: &mut [Vertex]) {
         let mesh = self.object.mesh;
         let rgb = self.object.material.colour;
+        let some = &mesh.positions[positions.clone()];
         if let Some(avx2) = self.avx2 {
-            avx2.project(&self.viewport, self.clip, mesh.positions, rgb, vertices);
+            avx2.project(&self.viewport, self.clip, some, rgb, vertices);
         } else {
-            for (vertex, &position) in vertices.iter_mut().zip(mesh.positions) {
+            for (vertex, &position) in vertices.iter_mut().zip(some) {
                 *vertex = Vertex { rgb, ..self.viewport.project(&self.clip.apply(position)) };
             }
         }
-        if !features::VERTEX_COLOURS {
+        if !features::VERTEX_COLOURS || mesh.colours.is_empty() {
             return;
         }
-        for (vertex, &colour) in vertices.iter_mut().zip(mesh.colours) {
+        for (vertex, &colour) in vertices.iter_mut().zip(&mesh.colours[positions]) {
             vertex.rgb = modulate(colour, self.object.material.colour);
         }
+    }
+
+    /// Cull, by the object's mode.
+    fn list(
+        &self,
+        numbers: Range<usize>,
+        vertices: &mut impl Transformed,
+        lighting: &Lighting,
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
+        match self.object.mode {
+            Mode::Points if features::POINTS => self.points(numbers, vertices.vertices(), list),
+            Mode::Wire if features::LINES => self.edges(numbers, vertices.vertices(), list)?,
+            Mode::Hidden if features::LINES => {
+                let triangles = self.object.mesh.triangles.len();
+                let [start, end] = [numbers.start, numbers.end].map(|n| n.min(triangles));
+                self.triangles(start..end, vertices, lighting, Kind::Mask, list)?;
+                let rest = numbers.start - start..numbers.end - end;
+                self.edges(rest, vertices.vertices(), list)?;
+            }
+            _ => self.triangles(numbers, vertices, lighting, Kind::Triangle, list)?,
+        }
+        Ok(())
     }
 
     /// Back faces are dropped.
@@ -331,8 +378,8 @@ impl ObjectPass<'_> {
         }
     }
 
-    /// Light: the vertices that [`mark`] has marked, and those that could not be projected.
-    fn light(&self, vertices: &mut [Vertex], normals: &[[i16; 3]], lighting: &Lighting) {
+    /// Light: the vertices that are marked, and those that could not be projected.
+    fn light_marked(&self, vertices: &mut [Vertex], normals: &[[i16; 3]], lighting: &Lighting) {
         for ((vertex, &normal), &position) in
             vertices.iter_mut().zip(normals).zip(self.object.mesh.positions)
         {
@@ -346,28 +393,30 @@ impl ObjectPass<'_> {
     /// Cull: triangles that can be seen.
     fn triangles(
         &self,
-        vertices: &mut [Vertex],
+        range: Range<usize>,
+        vertices: &mut impl Transformed,
         lighting: &Lighting,
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
-        let triangles = self.object.mesh.triangles;
-        list.stats.triangles += triangles.len() as u32;
+        list.stats.triangles += range.len() as u32;
         let Some(avx2) = self.avx2 else {
-            return self.one_by_one(0..triangles.len(), vertices, lighting, kind, list);
+            return self.one_by_one(range, vertices, lighting, kind, list);
         };
+        let triangles = &self.object.mesh.triangles[range.clone()];
         let one_sided = self.one_sided();
-        let lit_later = self.vertex_normals().is_some();
         let size = [self.settings.width as i32, self.settings.height as i32];
-        let (groups, _) = triangles.as_chunks::<EIGHT>();
+        let (groups, rest) = triangles.as_chunks::<EIGHT>();
         let (mut next, mut seen) = (0, Seen::default());
         while next < groups.len() {
-            let found = avx2.facing(&groups[next..], vertices, size, one_sided, &mut seen);
+            let found =
+                avx2.facing(&groups[next..], vertices.vertices(), size, one_sided, &mut seen);
             list.stats.back_facing += seen.turned;
             list.stats.outside += seen.outside;
             let Some(passed) = found else { break };
-            let first = (next + passed) * EIGHT;
-            next += passed + 1;
+            let group = next + passed;
+            let first = range.start + group * EIGHT;
+            next = group + 1;
             if !seen.plain {
                 self.one_by_one(first..first + EIGHT, vertices, lighting, kind, list)?;
                 continue;
@@ -379,12 +428,10 @@ impl ObjectPass<'_> {
                 let rows = (seen.top[k] as i16, seen.bottom[k] as i16);
                 let facing = if seen.back >> k & 1 == 0 { Facing::Front } else { Facing::Back };
                 self.keep(first + k, kind as u8, rows, facing, lighting, list);
-                if lit_later {
-                    mark(vertices, triangles[first + k]);
-                }
+                vertices.keep(groups[group][k]);
             }
         }
-        self.one_by_one(groups.len() * EIGHT..triangles.len(), vertices, lighting, kind, list)
+        self.one_by_one(range.end - rest.len()..range.end, vertices, lighting, kind, list)
     }
 
     /// The same, one after another. Most are dropped here, so this loop holds nothing but the tests.
@@ -392,15 +439,15 @@ impl ObjectPass<'_> {
     fn one_by_one(
         &self,
         range: Range<usize>,
-        vertices: &mut [Vertex],
+        marked: &mut impl Transformed,
         lighting: &Lighting,
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
         let one_sided = self.one_sided();
-        let lit_later = self.vertex_normals().is_some();
         let mut back_facing = 0;
         for (i, &triangle) in range.clone().zip(&self.object.mesh.triangles[range]) {
+            let vertices = marked.vertices();
             let [a, b, c] = triangle.map(usize::from);
             let (Some(a), Some(b), Some(c)) = (vertices.get(a), vertices.get(b), vertices.get(c))
             else {
@@ -408,9 +455,7 @@ impl ObjectPass<'_> {
             };
             if (a.flags | b.flags | c.flags) & CLIP != 0 {
                 self.keep_clipped(i, a.flags & b.flags & c.flags, kind, lighting, list);
-                if lit_later {
-                    mark(vertices, triangle);
-                }
+                marked.keep(triangle);
                 continue;
             }
             let area = signed_area(&[[a.x, a.y], [b.x, b.y], [c.x, c.y]]);
@@ -423,9 +468,7 @@ impl ObjectPass<'_> {
             match self.rows(low, high) {
                 Some(rows) => {
                     self.keep(i, kind as u8, rows, facing(area), lighting, list);
-                    if lit_later {
-                        mark(vertices, triangle);
-                    }
+                    marked.keep(triangle);
                 }
                 None => list.stats.outside += 1,
             }
@@ -512,14 +555,19 @@ impl ObjectPass<'_> {
     }
 
     /// Edges with both ends in the frame are listed in runs of neighbours: `index` is the first, `rgb[0]` how many more
-    /// there are.
-    fn edges(&self, vertices: &[Vertex], list: &mut List) -> Result<(), PrepareError> {
-        const LONGEST: usize = 32;
+    /// there are. Runs begin at multiples of [`TOGETHER`], where a range must.
+    fn edges(
+        &self,
+        range: Range<usize>,
+        vertices: &[Vertex],
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
         let (width, height) = (self.settings.width as u32 * 16, self.settings.height as u32 * 16);
         let inside =
             |v: &Vertex| v.flags & CLIP == 0 && (v.x as u32) < width && (v.y as u32) < height;
-        for (k, edges) in self.object.mesh.edges.chunks(LONGEST).enumerate() {
-            let mut first = k * LONGEST;
+        let starts = range.clone().step_by(TOGETHER);
+        for (start, edges) in starts.zip(self.object.mesh.edges[range].chunks(TOGETHER)) {
+            let mut first = start;
             if let (Some(avx2), (groups, [])) = (self.avx2, edges.as_chunks::<EIGHT>())
                 && let Some((high, low)) = avx2.heights(groups, vertices, [width, height])
             {
@@ -528,7 +576,7 @@ impl ObjectPass<'_> {
             }
             // The run's length, its highest and its lowest end.
             let (mut length, mut high, mut low) = (0, i32::MAX, 0);
-            for (i, edge) in (k * LONGEST..).zip(edges) {
+            for (i, edge) in (start..).zip(edges) {
                 let [Some(a), Some(b)] = edge.map(|c| vertices.get(c as usize)) else {
                     return Err(PrepareError::Index { object: self.index, element: i });
                 };
@@ -589,8 +637,8 @@ impl ObjectPass<'_> {
         list.push(Primitive { index: index as u32, top, bottom, object, rgb: [0; 3], tag });
     }
 
-    fn points(&self, vertices: &[Vertex], list: &mut List) {
-        for (i, v) in vertices.iter().enumerate() {
+    fn points(&self, range: Range<usize>, vertices: &[Vertex], list: &mut List) {
+        for (i, v) in range.clone().zip(&vertices[range]) {
             let reach = self.object.point_size as i32;
             let rows = if v.flags & CLIP != 0 { None } else { self.line_rows(v, v, reach) };
             let Some((top, bottom)) = rows else {
