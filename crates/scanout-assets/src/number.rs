@@ -88,19 +88,37 @@ impl Number {
 
     /// The nearest Q16.16 (ties upwards), saturated to `i32`. Integers only: for machines without an FPU.
     pub fn to_q16(self) -> i32 {
-        let scaled = i128::from(self.mantissa) << 16;
+        const MOST: i64 = 1 << 15;
+        let digits = self.exponent.unsigned_abs();
         let value = match self.exponent {
-            0 => scaled,
-            // 2^63 * 2^16 * 10^14 < 2^127; and 10^14 already saturates.
-            1.. => scaled * 10i128.pow(self.exponent.min(14) as u32),
-            // |mantissa| < 10^18, so 10^-30 and less rounds to zero.
-            ..=-30 => 0,
-            negative => {
-                let power = 10i128.pow(negative.unsigned_abs());
-                (2 * scaled + power).div_euclid(2 * power)
+            0.. => {
+                // 19 digits are beyond the range.
+                let whole = (0..digits.min(19)).fold(self.mantissa, |m, _| m.saturating_mul(10));
+                whole.clamp(-MOST, MOST) << 16
             }
+            -15.. => {
+                let power = 10i64.pow(digits);
+                let whole = self.mantissa.div_euclid(power).clamp(-MOST - 1, MOST);
+                // 16 bits of the fraction, one a step: below 2^51 each time.
+                let mut rest = self.mantissa.rem_euclid(power);
+                let mut value = whole;
+                for _ in 0..16 {
+                    rest *= 2;
+                    value = 2 * value + i64::from(rest >= power);
+                    rest -= if rest >= power { power } else { 0 };
+                }
+                value + i64::from(2 * rest >= power)
+            }
+            // 10^n / 2^16 = 5^n 2^(n - 16), below 2^61.
+            -23.. => {
+                let divisor = 5i64.pow(digits) << (digits - 16);
+                let rest = self.mantissa.rem_euclid(divisor);
+                self.mantissa.div_euclid(divisor) + i64::from(2 * rest >= divisor)
+            }
+            // |mantissa| < 10^18, so it rounds to zero.
+            _ => 0,
         };
-        value.clamp(i128::from(i32::MIN), i128::from(i32::MAX)) as i32
+        value.clamp(i32::MIN.into(), i32::MAX.into()) as i32
     }
 }
 
@@ -138,6 +156,44 @@ mod tests {
 
     fn q(text: &str) -> i32 {
         Number::parse(text.as_bytes()).unwrap().to_q16()
+    }
+
+    /// The definition in 128 bits.
+    fn q16_exact(number: Number) -> i32 {
+        let scaled = i128::from(number.mantissa) << 16;
+        let value = match number.exponent {
+            0.. => scaled * 10i128.pow(number.exponent.min(14) as u32),
+            ..=-30 => 0,
+            negative => {
+                let power = 10i128.pow(negative.unsigned_abs());
+                (2 * scaled + power).div_euclid(2 * power)
+            }
+        };
+        value.clamp(i32::MIN.into(), i32::MAX.into()) as i32
+    }
+
+    #[test]
+    fn q16_is_exact() {
+        let mut seed = 3u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            seed >> 4
+        };
+        for i in 0..30_000 {
+            let size = 10u64.pow((random() % 19) as u32);
+            let mut mantissa = (random() % size) as i64;
+            if i % 5 == 0 {
+                // Halves of a step, and what is next to them.
+                mantissa = (2 * (mantissa % 60_000) + 1) * 762_939_453_125 + i % 3 - 1;
+            }
+            for mantissa in [mantissa, -mantissa] {
+                for exponent in -32..20 {
+                    let number =
+                        Number { mantissa: mantissa % 1_000_000_000_000_000_000, exponent };
+                    assert_eq!(number.to_q16(), q16_exact(number), "{number:?}");
+                }
+            }
+        }
     }
 
     #[test]
