@@ -79,7 +79,7 @@ impl Default for Parameters {
             least_side: 8,
             wrong: 3,
             agreement: 0.8,
-            fit: (0.7, 0.85),
+            fit: (0.7, 0.9),
             near: Wanted { seen: 0.5, agreement: 0.9 },
         }
     }
