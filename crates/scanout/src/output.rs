@@ -19,6 +19,7 @@
 use core::ops::Range;
 
 use crate::memory::fill;
+use crate::shade::{modulate, modulate565};
 
 /// The 4 x 4 Bayer matrix, `BAYER[y & 3][x & 3]`, 0 - 15.
 pub const BAYER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
@@ -40,6 +41,11 @@ pub trait PixelFormat: Copy + 'static {
     fn encode(rgb: [u8; 3]) -> Self::Pixel;
     /// Converts a colour with dither for the pixel at (x, y) of the frame.
     fn encode_dithered(rgb: [u8; 3], x: i32, y: i32) -> Self::Pixel;
+    /// An RGB565 texel times a colour, without dither.
+    #[inline(always)]
+    fn modulate565(texel: u16, rgb: [u8; 3]) -> Self::Pixel {
+        Self::encode(modulate(widen565(texel), rgb))
+    }
     /// Stores a pixel at column `x` of a row.
     fn store(row: &mut [Self::Word], x: usize, pixel: Self::Pixel);
     /// The colour at column `x` of a row, widened to 8 bits a channel by bit replication.
@@ -190,6 +196,10 @@ impl PixelFormat for Rgb565 {
     #[inline(always)]
     fn encode_dithered(rgb: [u8; 3], x: i32, y: i32) -> u16 {
         Self::encode(dithered(rgb, [5, 6, 5], x, y))
+    }
+    #[inline(always)]
+    fn modulate565(texel: u16, rgb: [u8; 3]) -> u16 {
+        modulate565(texel, rgb)
     }
     #[inline(always)]
     fn load(row: &[u16], x: usize) -> [u8; 3] {

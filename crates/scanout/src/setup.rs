@@ -29,6 +29,7 @@
 //! What it will not do: triangles without area (there is nothing to draw).
 
 use crate::interpolate::Plane;
+use crate::math::floor;
 
 /// An edge: a pixel is inside where `a x + b y + k >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -159,23 +160,29 @@ impl Triangle {
     /// The planes of several attributes: what they share is computed once.
     #[inline(always)]
     pub fn planes<const N: usize>(&self, values: [[u32; 3]; N]) -> [Plane; N] {
+        self.planes_and_fit(values).0
+    }
+
+    /// The same, and whether all changes a column fit 32 bits with a sign, so that nothing wraps from one covered pixel to the
+    /// next but a value just below 0.
+    #[inline(always)]
+    pub fn planes_and_fit<const N: usize>(&self, values: [[u32; 3]; N]) -> ([Plane; N], bool) {
         if !self.small {
-            return values.map(|a| self.wide_plane(a));
+            return (values.map(|a| self.wide_plane(a)), false);
         }
         let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
         let half = self.area >> 1;
-        // Floor of n / area: the truncated quotient, less one where the remainder is negative.
-        let floor = |n: i64| n / self.area + ((n % self.area) >> 63);
-        let mut planes = [Plane::default(); N];
+        let (mut planes, mut fit) = ([Plane::default(); N], true);
         for (plane, a) in planes.iter_mut().zip(&values) {
             let (da1, da2) = (a[1] as i64 - a[0] as i64, a[2] as i64 - a[0] as i64);
-            let gx = floor((da1 * d2[1] - da2 * d1[1]) * 16 + half);
-            let gy = floor((d1[0] * da2 - d2[0] * da1) * 16 + half);
+            let gx = floor((da1 * d2[1] - da2 * d1[1]) * 16 + half, self.area);
+            let gy = floor((d1[0] * da2 - d2[0] * da1) * 16 + half, self.area);
             let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
             *plane =
                 Plane { c: a[0].wrapping_add((offset >> 4) as u32), gx: gx as u32, gy: gy as u32 };
+            fit &= gx == gx as i32 as i64;
         }
-        planes
+        (planes, fit)
     }
 
     /// The same for corners far outside the screen.

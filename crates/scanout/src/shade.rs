@@ -22,6 +22,24 @@ pub fn modulate(a: [u8; 3], b: [u8; 3]) -> [u8; 3] {
     core::array::from_fn(|i| div255(a[i] as u32 * b[i] as u32))
 }
 
+/// The top `bits` bits of `a b / 255` to nearest: `floor((a b + 127) / (255 2^(8 - bits)))`, five or six of them, by a product.
+#[inline(always)]
+fn top(a: u32, b: u32, bits: u32) -> u32 {
+    // 32897 = ceil(2^26 / 2040): exact for what is below 2^16.
+    ((a * b + 127) * 32897) >> (31 - bits)
+}
+
+/// An RGB565 texel times a colour as an RGB565 pixel: widened by bit replication, [`modulate`]d, cut to its top bits.
+#[inline(always)]
+pub fn modulate565(texel: u16, rgb: [u8; 3]) -> u16 {
+    let texel = texel as u32;
+    let (r, g, b) = (texel >> 11, (texel >> 5) & 63, texel & 31);
+    let r = top((r * 33) >> 2, rgb[0] as u32, 5);
+    let g = top((g * 65) >> 4, rgb[1] as u32, 6);
+    let b = top((b * 33) >> 2, rgb[2] as u32, 5);
+    ((r << 11) | (g << 5) | b) as u16
+}
+
 /// `a` where `weight` is 0, `b` where it is 255, linear between.
 #[inline(always)]
 pub fn blend(a: [u8; 3], b: [u8; 3], weight: u8) -> [u8; 3] {
@@ -96,6 +114,19 @@ impl FogWeights {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::{PixelFormat, Rgb565, widen565};
+
+    #[test]
+    fn a_product_of_a_texel_is_widened_modulated_and_cut() {
+        for texel in (0..32).map(|v| v << 11 | v).chain((0..64).map(|v| v << 5)) {
+            for c in 0..=255 {
+                let expected = Rgb565::encode(modulate(widen565(texel), [c; 3]));
+                assert_eq!(modulate565(texel, [c; 3]), expected, "{texel:#x} {c}");
+            }
+        }
+        let expected = Rgb565::encode(modulate(widen565(0xabcd), [9, 99, 199]));
+        assert_eq!(modulate565(0xabcd, [9, 99, 199]), expected);
+    }
     use crate::math::Q16;
 
     #[test]

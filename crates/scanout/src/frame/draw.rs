@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured};
+use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walked};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
 use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
@@ -145,6 +145,20 @@ impl<'a> Frame<'a> {
             }),
             (true, None) => {
                 self.draw_alike(source, run, lights, target, |t, v, _| shaded(t, v));
+            }
+            (false, Some(sampler)) if target.walks() => {
+                self.draw_alike(source, run, lights, target, |t, v, primitive| {
+                    let (z, inner) = (t.plane(v.map(|v| v.z)), Flat(primitive.rgb));
+                    let uv = uv(primitive.index as usize);
+                    (z, Walked::new(t, inner, sampler, uv, q(v)))
+                });
+            }
+            (true, Some(sampler)) if target.walks() => {
+                self.draw_alike(source, run, lights, target, |t, v, primitive| {
+                    let (z, inner) = shaded(t, v);
+                    let uv = uv(primitive.index as usize);
+                    (z, Walked::new(t, inner, sampler, uv, q(v)))
+                });
             }
             (false, Some(sampler)) => {
                 self.draw_alike(source, run, lights, target, |t, v, primitive| {

@@ -8,9 +8,10 @@ use crate::interpolate::Plane;
 use crate::lanes::{LANES, U16x8, U32x8};
 use crate::light::Lighting;
 use crate::math::normalise_q14;
+use crate::output::{PixelFormat, widen565};
 use crate::setup::Triangle;
 use crate::shade::{FogWeights, blend, modulate};
-use crate::texture::{Sampler, integer_q, reciprocal};
+use crate::texture::{Along, Block, Perspective, Repeat565, Sampler, integer_q, reciprocal};
 
 /// Colours of fragments.
 pub(super) trait Shader {
@@ -20,17 +21,34 @@ pub(super) trait Shader {
     type Ramps: Copy;
     /// Every fragment has the same colour.
     const CONSTANT: bool = false;
+    /// Runs are drawn in blocks.
+    const IN_BLOCKS: bool = false;
     /// Can give eight colours at a time.
     const SIDE_BY_SIDE: bool = false;
 
     /// The attributes at (x, y).
     fn at(&self, x: i32, y: i32) -> Self::Pixel;
+    /// The same, where a run of `count` pixels, at most [`longest`](Self::longest), begins.
+    #[inline(always)]
+    fn begin(&self, x: i32, y: i32, _count: i32) -> Self::Pixel {
+        self.at(x, y)
+    }
+    /// Only so many pixels may follow from one [`begin`](Self::begin), where there are blocks.
+    #[inline(always)]
+    fn longest(&self) -> i32 {
+        i32::MAX
+    }
     /// Those `count` pixels further right.
     fn step(&self, pixel: Self::Pixel, count: u32) -> Self::Pixel;
     /// Those one row down.
     fn down(&self, pixel: Self::Pixel) -> Self::Pixel;
     /// A pixel's colour.
     fn colour(&self, pixel: &Self::Pixel) -> [u8; 3];
+    /// A pixel's colour in its format, without dither.
+    #[inline(always)]
+    fn encoded<F: PixelFormat>(&self, pixel: &Self::Pixel) -> F::Pixel {
+        F::encode(self.colour(pixel))
+    }
 
     /// Prepares for eight colours at a time.
     fn ramps(&self) -> Self::Ramps;
@@ -177,6 +195,15 @@ impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
         modulate(self.sampler.texel(&self.setup, *st, q, reciprocal(q)), self.inner.colour(inner))
     }
     #[inline(always)]
+    fn encoded<F: PixelFormat>(&self, (inner, q, st): &Self::Pixel) -> F::Pixel {
+        let (q, rgb) = (integer_q(*q), self.inner.colour(inner));
+        if T::RGB565 {
+            F::modulate565(self.sampler.texel565(&self.setup, *st, reciprocal(q)), rgb)
+        } else {
+            F::encode(modulate(self.sampler.texel(&self.setup, *st, q, reciprocal(q)), rgb))
+        }
+    }
+    #[inline(always)]
     fn ramps(&self) -> Self::Ramps {
         let [s, t] = &T::perspective(&self.setup).st;
         (self.inner.ramps(), [&self.q, s, t].map(|plane| U32x8::ramp(0, plane.gx)))
@@ -209,6 +236,92 @@ impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
             t.add(t.shr::<8>()).shr::<8>()
         })
     }
+}
+
+/// [`Textured`] for runs, a pixel after another: texels come [`Along`] the row where they are certain.
+pub(super) struct Walked<'a, S> {
+    inner: S,
+    sampler: Repeat565<'a>,
+    setup: Perspective,
+    q: Plane,
+    along: Along,
+}
+
+impl<'a, S: Shader> Walked<'a, S> {
+    /// From three corners' texture coordinates and 1/w.
+    #[inline(always)]
+    pub(super) fn new(
+        t: &Triangle,
+        inner: S,
+        sampler: Repeat565<'a>,
+        uv: [[i32; 2]; 3],
+        q: [u32; 3],
+    ) -> Self {
+        let (setup, fit) = sampler.setup_and_fit(t, uv, q);
+        let ([plane], also) = t.planes_and_fit([q.map(|q| q << 8)]);
+        let along = Along::new(&setup, &plane, q, sampler.sides(), fit && also);
+        Walked { inner, sampler, setup, q: plane, along }
+    }
+
+    /// The texel by the definition.
+    #[cold]
+    #[inline(never)]
+    fn defined(&self, x: i32, y: i32) -> u16 {
+        let [s, t] = &self.setup.st;
+        let st = [s.at(x, y), t.at(x, y)];
+        self.sampler.texel565(&self.setup, st, reciprocal(integer_q(self.q.at(x, y))))
+    }
+
+    #[inline(always)]
+    fn texel(&self, block: &Block, x: i32, y: i32) -> u16 {
+        match block.texel() {
+            Some(texel) => self.sampler.inside(texel),
+            None => self.defined(x, y),
+        }
+    }
+}
+
+impl<S: Shader> Shader for Walked<'_, S> {
+    /// The inner shader's, the block and the place.
+    type Pixel = (S::Pixel, Block, i32, i32);
+    type Ramps = ();
+    const IN_BLOCKS: bool = true;
+
+    #[inline(always)]
+    fn at(&self, x: i32, y: i32) -> Self::Pixel {
+        self.begin(x, y, 1)
+    }
+    #[inline(always)]
+    fn begin(&self, x: i32, y: i32, count: i32) -> Self::Pixel {
+        let [s, t] = &self.setup.st;
+        let st = [s.at(x, y), t.at(x, y)];
+        let block = self.along.block(self.q.at(x, y), st, count as u32);
+        (self.inner.at(x, y), block, x, y)
+    }
+    #[inline(always)]
+    fn longest(&self) -> i32 {
+        self.along.length() as i32
+    }
+    #[inline(always)]
+    fn step(&self, (inner, mut block, x, y): Self::Pixel, count: u32) -> Self::Pixel {
+        for _ in 0..count {
+            block.step();
+        }
+        (self.inner.step(inner, count), block, x + count as i32, y)
+    }
+    #[inline(always)]
+    fn down(&self, (_, _, x, y): Self::Pixel) -> Self::Pixel {
+        self.at(x, y + 1)
+    }
+    #[inline(always)]
+    fn colour(&self, (inner, block, x, y): &Self::Pixel) -> [u8; 3] {
+        modulate(widen565(self.texel(block, *x, *y)), self.inner.colour(inner))
+    }
+    #[inline(always)]
+    fn encoded<F: PixelFormat>(&self, (inner, block, x, y): &Self::Pixel) -> F::Pixel {
+        F::modulate565(self.texel(block, *x, *y), self.inner.colour(inner))
+    }
+    fn ramps(&self) {}
 }
 
 /// Three signed attributes divided by w, block floating point: `value = (plane - 2^31) r / 2^shift`.

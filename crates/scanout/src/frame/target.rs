@@ -9,6 +9,7 @@ use crate::depth;
 use crate::features;
 use crate::interpolate::Plane;
 use crate::lanes::{self, LANES, U16x8, U32x8};
+use crate::math::NARROW;
 use crate::memory;
 use crate::output::{PixelFormat, Rgb565};
 use crate::raster::line::{ClipRect, Field, LineEnd, fill_cells};
@@ -157,6 +158,12 @@ impl<F: PixelFormat> Target<'_, F> {
         )
     }
 
+    /// Whether texels are better found along the row: where 64-bit products and divisions are dear, and tile by tile, so that
+    /// every machine can prove it.
+    pub(super) fn walks(&self) -> bool {
+        NARROW || (features::TILES && self.traversal == Traversal::Tiles)
+    }
+
     /// Depth, shade, output: a triangle's fragments.
     #[inline(always)]
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
@@ -205,28 +212,51 @@ impl<F: PixelFormat> Target<'_, F> {
         let constant =
             F::encode(if S::CONSTANT { shader.colour(&shader.at(0, 0)) } else { [0; 3] });
         let z = depth::biased(z);
-        let (top, width) = (self.rows.start, self.width);
         for Run { y, x0, x1 } in self.runs(t, columns) {
             if x0 >= x1 {
                 continue;
             }
-            let (mut value, mut pixel) = (z.at(x0, y), shader.at(x0, y));
-            let (place, columns) = ((width, (y - top) as usize), x0 as usize..x1 as usize);
-            F::visit(self.colour, self.depth, place, columns, |i, stored| {
-                let colour = depth::test(stored, depth::whole(value)).then(|| {
-                    if DITHER {
-                        F::encode_dithered(shader.colour(&pixel), x0 + i as i32, y)
-                    } else if S::CONSTANT {
-                        constant
-                    } else {
-                        F::encode(shader.colour(&pixel))
-                    }
-                });
-                value = value.wrapping_add(z.gx);
-                pixel = shader.step(pixel, 1);
-                colour
-            });
+            if !S::IN_BLOCKS {
+                self.fill_block::<S, DITHER>(&z, shader, constant, y, x0..x1);
+                continue;
+            }
+            let mut first = x0;
+            while first < x1 {
+                let end = x1.min(first + shader.longest());
+                self.fill_block::<S, DITHER>(&z, shader, constant, y, first..end);
+                first = end;
+            }
         }
+    }
+
+    /// Fragments side by side in row `y`; `constant` where they have one colour.
+    #[inline(always)]
+    fn fill_block<S: Shader, const DITHER: bool>(
+        &mut self,
+        z: &Plane,
+        shader: &S,
+        constant: F::Pixel,
+        y: i32,
+        columns: Range<i32>,
+    ) {
+        let first = columns.start;
+        let (mut value, mut pixel) = (z.at(first, y), shader.begin(first, y, columns.end - first));
+        let place = (self.width, (y - self.rows.start) as usize);
+        let columns = first as usize..columns.end as usize;
+        F::visit(self.colour, self.depth, place, columns, |i, stored| {
+            let colour = depth::test(stored, depth::whole(value)).then(|| {
+                if DITHER {
+                    F::encode_dithered(shader.colour(&pixel), first + i as i32, y)
+                } else if S::CONSTANT {
+                    constant
+                } else {
+                    shader.encoded::<F>(&pixel)
+                }
+            });
+            value = value.wrapping_add(z.gx);
+            pixel = shader.step(pixel, 1);
+            colour
+        });
     }
 
     /// A tiny triangle in strips of eight columns, RGB565 only: no spans, edges are tested at every pixel.

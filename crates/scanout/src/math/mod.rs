@@ -19,6 +19,7 @@
 //!
 //! What it will not do: arbitrary formats, logarithms, inverse trigonometry.
 
+mod division;
 mod fixed;
 mod mat;
 mod quat;
@@ -28,6 +29,7 @@ mod trig;
 mod unit;
 mod vec;
 
+pub(crate) use division::{NARROW, floor, fraction};
 pub use fixed::Q16;
 pub use mat::Mat4;
 pub use quat::Quat;

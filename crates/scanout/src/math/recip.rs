@@ -11,11 +11,16 @@
 //!
 //! What it will not do: reciprocals of numbers that aren't normalised; see [`normalise_mantissa`].
 
+use super::NARROW;
+
 /// `floor((2^63 - 1) / m)`, exact, for `m` >= 2^31. The top bit of `m` is taken as set.
 ///
-/// Cost: one 64-bit division.
+/// Cost: one 64-bit division; on machines of 32 bits [`recip32_newton`]'s.
 #[inline]
 pub const fn recip32(m: u32) -> u32 {
+    if NARROW {
+        return recip32_newton(m);
+    }
     (((1u64 << 63) - 1) / (m | 1 << 31) as u64) as u32
 }
 

@@ -13,6 +13,7 @@
 //!
 //! Cost of a row: three additions and five comparisons; six divisions a triangle.
 
+use crate::math::fraction;
 use crate::setup::{Edge, Triangle};
 use core::ops::Range;
 
@@ -49,7 +50,7 @@ impl Crossing {
         let n = edge.b * y as i64 + edge.k;
         // The whole part of the sum is the first column of the run, or the one past the last.
         let round = if left { (1 << 32) - 1 - BIAS } else { (1 << 32) + BIAS };
-        Crossing { x: round - (n << 32) / d, step: -((edge.b << 32) / d), left }
+        Crossing { x: round - fraction(n, d), step: -fraction(edge.b, d), left }
     }
 }
 

@@ -22,9 +22,11 @@
 //! `T_l = cbrt(K / 2^(2l - 1))`. One comparison a level instead of derivatives a pixel. What it will not do: anisotropic
 //! or trilinear filtering.
 
+mod along;
 mod palette;
 mod perspective;
 
+pub use along::{Along, Block};
 pub use palette::RepeatPalette;
 pub use perspective::{
     General, Perspective, Repeat565, Sampler, TextureSetup, integer_q, reciprocal,

@@ -75,7 +75,7 @@ impl Sampler for RepeatPalette<'_> {
     #[inline(always)]
     fn setup(&self, t: &Triangle, uv: [[i32; 2]; 3], q: [u32; 3]) -> Perspective {
         let (local, _) = local(uv, self.size.map(|size| size as u32));
-        Perspective::new(t, &local, q)
+        Perspective::new(t, &local, q).0
     }
     #[inline(always)]
     fn perspective(setup: &Perspective) -> &Perspective {

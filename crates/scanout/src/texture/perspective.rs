@@ -6,6 +6,7 @@
 use super::{Filter, MAX_LEVELS, SUBTEXEL_BITS, Texels, Texture, Wrap};
 use crate::features;
 use crate::interpolate::Plane;
+use crate::math::NARROW;
 use crate::output::widen565;
 use crate::setup::Triangle;
 
@@ -45,9 +46,6 @@ pub fn reciprocal(q: u32) -> u64 {
         ((1u64 << 47) - 1) / q as u64
     }
 }
-
-/// A machine of 32 bits: 64-bit shifts and divisions are calls.
-const NARROW: bool = cfg!(target_pointer_width = "32");
 
 /// [`reciprocal`] for `q` in [2^15, 2^24): 23 bits of the dividend, then eight and eight, by 32-bit divisions.
 #[inline(always)]
@@ -94,7 +92,7 @@ pub(super) fn local(uv: [[i32; 2]; 3], size: [u32; 2]) -> ([[u64; 3]; 2], [i32; 
 impl Perspective {
     /// From the corners' places in the texture, 1/4096 texel below 2^38, and their 1/w (integers, the largest in [2^22, 2^23)).
     #[inline(always)]
-    pub(super) fn new(t: &Triangle, local: &[[u64; 3]; 2], q: [u32; 3]) -> Perspective {
+    pub(super) fn new(t: &Triangle, local: &[[u64; 3]; 2], q: [u32; 3]) -> (Perspective, bool) {
         let mut shift = [0; 2];
         let values = [0, 1].map(|axis: usize| {
             let products = [0, 1, 2].map(|i: usize| local[axis][i] * q[i] as u64);
@@ -103,7 +101,8 @@ impl Perspective {
             shift[axis] = 47 - drop;
             products.map(|p| ((p + ((1 << drop) >> 1)) >> drop) as u32)
         });
-        Perspective { st: t.planes(values), shift }
+        let (st, fit) = t.planes_and_fit(values);
+        (Perspective { st, shift }, fit)
     }
 }
 
@@ -123,7 +122,7 @@ impl<'a> TextureSetup<'a> {
         } else {
             [0; MAX_LEVELS as usize - 1]
         };
-        TextureSetup { texture, perspective: Perspective::new(t, &local, q), base, thresholds }
+        TextureSetup { texture, perspective: Perspective::new(t, &local, q).0, base, thresholds }
     }
 
     /// Where a pixel lies in the texture, 1/4096 texel of level 0: from the values of its planes and the reciprocal of its
@@ -205,6 +204,31 @@ impl<'a> Repeat565<'a> {
         plain.then_some(Repeat565 { texels, size })
     }
 
+    /// Sets a triangle up, and whether all changes a column fit 32 bits.
+    #[inline(always)]
+    pub(crate) fn setup_and_fit(
+        &self,
+        t: &Triangle,
+        uv: [[i32; 2]; 3],
+        q: [u32; 3],
+    ) -> (Perspective, bool) {
+        let (local, _) = local(uv, self.size.map(|size| size as u32));
+        Perspective::new(t, &local, q)
+    }
+
+    /// Width and height.
+    #[inline(always)]
+    pub(crate) fn sides(&self) -> [u32; 2] {
+        self.size.map(|size| size as u32)
+    }
+
+    /// A texel inside the texture.
+    #[inline(always)]
+    pub(crate) fn inside(&self, [x, y]: [u32; 2]) -> u16 {
+        let index = y as usize * self.size[0] as usize + x as usize;
+        self.texels.get(index).copied().unwrap_or(0)
+    }
+
     /// The texel as it is stored, from the shifts of a [`Perspective`].
     #[inline(always)]
     pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
@@ -216,12 +240,13 @@ impl<'a> Repeat565<'a> {
 /// Which texel a pixel has of a texture that repeats, from the shifts of a [`Perspective`].
 #[inline(always)]
 pub(super) fn texel_of_repeat(size: [u64; 2], shift: [u32; 2], st: [u32; 2], r: u64) -> usize {
-    let [x, y] = [0, 1].map(|i| {
+    let axis = |i: usize| {
         let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift[i] - 1));
         let texel = whole(product, shift[i] + SUBTEXEL_BITS);
         // Whole repeats are taken off at setup: few triangles reach into the next one.
         (if texel < size[i] { texel } else { texel % size[i] }) as usize
-    });
+    };
+    let (x, y) = (axis(0), axis(1));
     y * size[0] as usize + x
 }
 
@@ -231,8 +256,7 @@ impl Sampler for Repeat565<'_> {
 
     #[inline(always)]
     fn setup(&self, t: &Triangle, uv: [[i32; 2]; 3], q: [u32; 3]) -> Perspective {
-        let (local, _) = local(uv, self.size.map(|size| size as u32));
-        Perspective::new(t, &local, q)
+        self.setup_and_fit(t, uv, q).0
     }
     #[inline(always)]
     fn perspective(setup: &Perspective) -> &Perspective {
