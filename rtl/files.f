@@ -1,5 +1,7 @@
 axi4_lite_to_wishbone.sv
 clip.sv
+clip_alu.sv
+clip_program.sv
 control_registers.sv
 debounce.sv
 delay_line.sv
@@ -7,7 +9,6 @@ dvi.sv
 framebuffer.sv
 gpu.sv
 line.sv
-line_clip.sv
 line_clipped.sv
 line_memories.sv
 line_memory.sv
@@ -15,7 +16,6 @@ line_ramp.sv
 line_setup.sv
 line_walk.sv
 model_memory.sv
-muldiv.sv
 output_format.sv
 overlay.sv
 plane_memory.sv

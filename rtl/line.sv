@@ -3,13 +3,13 @@
 //   line_setup -> [line_ramp] -> line_walk
 //
 //   | s_a_, s_b_ | ends: column and row (signed, W bits), depth (for the order of ends on one pixel), colour 8-8-8    |
-//   | m_         | pixels in order of the major axis: column, row, colour, and whether it is the line's last          |
+//   | m_         | pixels in order of the major axis: column, row, whether the line is steep, colour, whether it is its last |
 //
 // COLOUR 0: the line has one colour, which is the caller's business; m_rgb is 0. COLOUR 1: colours are interpolated and rounded to
 // nearest (see line_ramp), W at most 12: the format 12.20 is exact to 4095 steps.
 //
 // Clocks: a pixel a clock, 1.000 over any sequence of lines, points among them. Latency 4 (COLOUR 0) or 11 clocks and one of
-// the walker. Nothing is clipped here: see line_clip.
+// the walker. Nothing is clipped here: see line_clipped.
 `default_nettype none
 
 module line #(
@@ -33,6 +33,7 @@ module line #(
     input  wire logic                m_ready,
     output logic signed [W-1:0]      m_x,
     output logic signed [W-1:0]      m_y,
+    output logic                 m_steep,
     output logic [23:0]              m_rgb,
     output logic                     m_last
 );
@@ -157,6 +158,7 @@ module line #(
         .m_ready(m_ready),
         .m_x(m_x),
         .m_y(m_y),
+        .m_steep(m_steep),
         .m_rgb(m_rgb),
         .m_last(m_last)
     );

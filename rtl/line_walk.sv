@@ -13,7 +13,7 @@
 //   | s_error   | (2 m i + n) mod 2 n - 2 n + 2 m at the first pixel: 2 m - n at the beginning of a line; signed    |
 //   | s_now     | three colours with the half that rounds, {red, green, blue}, W_COLOUR bits each (8.20)            |
 //   | s_step    | what a pixel adds to each: its bits when `s_fall` is 0, their complement when 1                   |
-//   | m_        | column, row, colour, and whether it is the line's last pixel                                      |
+//   | m_        | column, row, whether the line is steep, colour, and whether it is the line's last pixel           |
 //
 // Latency 1 clock. s_ready depends on m_ready without a register between.
 `default_nettype none
@@ -43,10 +43,12 @@ module line_walk #(
     input  wire logic                    m_ready,
     output logic [W-1:0]                 m_x,
     output logic [W-1:0]                 m_y,
+    output logic                         m_steep,
     output logic [23:0]                  m_rgb,
     output logic                         m_last
 );
     logic                    steep, back;
+    assign m_steep = steep;
     logic [W_N-1:0]          left, rise;
     logic signed [W_N:0]     turn;
     logic signed [W_N+1:0]   error;

@@ -20,8 +20,8 @@
 //   (c2 2^30 + c1 2^15 + c0)(r2 2^30 + r1 2^15 + r0)     nine, the largest place first; the sum moves 15 bits between places
 //   (g2 2^30 + g1 2^15 + g0) 8 width                     three, with g = the ratio, 33 bits
 //
-// Clocks a vertex in view: 4 words, lz + 33 for r, lz + 17 an axis, 1: 3 lz + 72 with x and y. lz is at least 1, and small where the
-// matrix uses its bits. A flagged vertex takes 5.
+// Clocks a vertex in view: 4 words, lz + 33 for r, lz + 17 an axis, 2: 3 lz + 73 with x and y. lz is at least 1, and small where the
+// matrix uses its bits. A flagged vertex takes 7.
 `default_nettype none
 
 module project #(
@@ -46,7 +46,7 @@ module project #(
     output logic [4:0]              m_exponent,
     output logic [W_TAG-1:0]        m_tag
 );
-    typedef enum logic [2:0] {LOAD, NORMALISE, DIVIDE, RATIO, SHIFT, DONE} state_t;
+    typedef enum logic [2:0] {LOAD, JUDGE, NORMALISE, DIVIDE, RATIO, SHIFT, DONE} state_t;
     localparam logic [1:0] LAST_AXIS = DEPTH != 0 ? 2'd2 : 2'd1;
 
     state_t             state;
@@ -59,21 +59,24 @@ module project #(
     assign m_valid   = state == DONE;
     assign last_step = step == '1;
 
-    // |v| > 2^13 w, without the low 13 bits: -v > 2^13 w when w + floor(v / 2^13) < 0, and v > 2^13 w when w - ceil(v / 2^13) < 0.
+    // A clock after each word came. |v| > 2^13 w, without the low 13 bits: -v > 2^13 w when w + floor(v / 2^13) < 0, and v > 2^13 w
+    // when w - ceil(v / 2^13) < 0.
     logic signed [32:0] w, below, above, beyond;
-    logic signed [18:0] s_high;
+    logic signed [18:0] high;
     logic [2:0]         flags;
+    logic               judged;
+    logic [1:0]         judged_word;
     assign w      = $signed({divisor[31], divisor});
-    assign s_high = s_data[31:13];
-    assign below  = w + 33'(s_high);
-    assign above  = w - 33'(s_high) - 33'(signed'({1'b0, s_data[12:0] != '0}));
-    assign beyond = w - 33'(s_data);
+    assign high   = c_last[31:13];
+    assign below  = w + 33'(high);
+    assign above  = w - 33'(high) - 33'(signed'({1'b0, c_last[12:0] != '0}));
+    assign beyond = w - 33'(c_last);
     always_comb begin
         flags = m_flags;
-        case (word)
-            2'd0: flags = {2'b00, s_data <= 0};
+        case (judged_word)
+            2'd0: flags = {2'b00, c_last <= 0};
             2'd3: begin
-                flags[0] = m_flags[0] || s_data < 0;
+                flags[0] = m_flags[0] || c_last < 0;
                 flags[1] = beyond < 0;
             end
             default: flags[2] = m_flags[2] || below < 0 || above < 0;
@@ -108,11 +111,6 @@ module project #(
             4'd3, 4'd6, 4'd8: b = {1'b0, m_inverse[14:0]};
             default: b = half;
         endcase
-        // One step late, as the sum is.
-        case (step[3:0])
-            4'd3, 4'd5, 4'd8, 4'd10, 4'd14, 4'd15: move = state == RATIO;
-            default: move = 1'b0;
-        endcase
     end
 
     logic signed [63:0] total, rounded;
@@ -124,6 +122,14 @@ module project #(
         a_1       <= a;
         b_1       <= b;
         product_2 <= a_1 * b_1;
+        // For the steps after these.
+        case (step[3:0])
+            4'd2, 4'd4, 4'd7, 4'd9, 4'd13, 4'd14: move <= state == RATIO;
+            default: move <= 1'b0;
+        endcase
+        judged      <= state == LOAD && s_valid;
+        judged_word <= word;
+        if (judged) m_flags <= flags;
         case (state)
             LOAD: begin
                 step       <= '0;
@@ -132,15 +138,17 @@ module project #(
                 rest       <= 32'h7fff_ffff;
                 if (s_valid) begin
                     word    <= word + 1'b1;
-                    m_flags <= flags;
                     m_tag   <= s_tag;
                     if (word == 2'd0) divisor <= s_data;
                     {c, c_next, c_last} <= {c_next, c_last, s_data};
-                    if (word == 2'd3) state <= flags != '0 ? DONE : NORMALISE;
+                    if (word == 2'd3) state <= JUDGE;
                 end
             end
+            JUDGE: state <= NORMALISE;
             NORMALISE: begin
-                if (divisor[31]) begin
+                if (m_flags != '0) begin
+                    state <= DONE;
+                end else if (divisor[31]) begin
                     state <= DIVIDE;
                 end else begin
                     divisor    <= divisor << 1;

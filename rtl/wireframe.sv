@@ -15,7 +15,8 @@
 // is high for a clock.
 // With TAGGED an edge begins when the last one's pixels are out, because the tags belong to whole lines.
 //
-// Clocks: a vertex costs what the slower of transform and project does (about 40 with 3 multipliers), an edge 7 or its pixels.
+// Clocks: a vertex costs what the slower of transform and project does (about 80), an edge 8 or its pixels, and clip's where it leaves
+// the screen or the view volume.
 `default_nettype none
 
 module wireframe #(
@@ -63,7 +64,7 @@ module wireframe #(
     localparam int W_TAG = W_VERTEX;
 
     typedef enum logic [3:0] {
-        IDLE, VERTEX_READ, VERTEX_SEND, VERTEX_WAIT, EDGE_READ, EDGE_SEEN, END_A, END_B, END_B_SEEN, DECIDE,
+        IDLE, VERTEX_READ, VERTEX_SEND, VERTEX_WAIT, EDGE_READ, EDGE_SEEN, END_A, END_B, TAKE_A, TAKE_B, DECIDE,
         CLIP_READ, CLIP_SEND, CLIP_WAIT, LINE, DRAIN
     } state_t;
     state_t state;
@@ -163,27 +164,6 @@ module wireframe #(
     assign transform_valid = state == VERTEX_SEND || state == CLIP_SEND;
     assign clip_ready      = clipping ? clip_stage_ready : scale_ready;
 
-    generate
-        if (CLIP != 0) begin : g_clip
-            clip i_clip (
-                .clk    (clk),
-                .rst_n  (rst_n),
-                .s_valid(clip_valid && clipping),
-                .s_ready(clip_stage_ready),
-                .s_data (clip_data),
-                .m_valid(clipped_valid),
-                .m_ready(scale_ready),
-                .m_data (clipped_data),
-                .idle   (clip_stage_idle)
-            );
-        end else begin : g_no_clip
-            assign clip_stage_ready = 1'b1;
-            assign clip_stage_idle  = 1'b1;
-            assign clipped_valid    = 1'b0;
-            assign clipped_data     = '0;
-        end
-    endgenerate
-
     logic [31:0] unused_z;
     logic [31:0] unused_inverse;
     logic [ 4:0] unused_exponent;
@@ -211,42 +191,76 @@ module wireframe #(
     );
 
     // ------------------------------------------------------------------------------------------------------------ line stages
+    // The ends of an edge come one after the other, from the projected memory or projected again: a, then b.
     logic signed [W-1:0] a_x, a_y, b_x, b_y;
     logic [         2:0] flags_a;
+    logic [         2:0] flags_b;
+    logic [         3:0] sides_a;  // of the screen that an end lies beyond
+    logic [         3:0] sides_b;
+    logic                take_end;
+    logic                on_screen;
     logic                second;     // end b goes to be clipped
     logic                started;    // the clip stage has words of this edge
     logic                left_over;  // and it had words to give
     logic                landed;     // end a is projected again
+    logic                clipped;    // both are
     logic                line_ready;
     logic                line_busy;
+    logic                line_steep;
     logic                unused_last;
     logic [         1:0] group;
 
+    assign take_end = state == TAKE_A || state == TAKE_B || (clipping && project_valid);
+    always_ff @(posedge clk) begin
+        if (take_end) begin
+            {flags_a, sides_a, a_y, a_x} <= {flags_b, sides_b, b_y, b_x};
+            {flags_b, b_y, b_x} <= clipping ? {project_flags, project_y[4+:W], project_x[4+:W]} : projected;
+        end
+    end
+
     logic line_valid;
-    assign line_valid = state == LINE && (TAGGED == 0 || !line_busy);
+    assign line_valid = state == LINE;
     generate
         if (CLIP != 0) begin : g_line_clipped
+            assign sides_b[0] = b_x < 0;
+            assign sides_b[1] = b_x >= $signed({{(W - W_SCREEN - 1) {1'b0}}, width});
+            assign sides_b[2] = b_y < 0;
+            assign sides_b[3] = b_y >= $signed({{(W - W_SCREEN - 1) {1'b0}}, height});
             line_clipped #(
                 .W_SCREEN(W_SCREEN)
             ) i_line (
-                .clk    (clk),
-                .rst_n  (rst_n),
-                .width  (width),
-                .height (height),
-                .s_valid(line_valid),
-                .s_ready(line_ready),
-                .s_a_x  (a_x),
-                .s_a_y  (a_y),
-                .s_b_x  (b_x),
-                .s_b_y  (b_y),
-                .m_valid(m_valid),
-                .m_ready(m_ready),
-                .m_x    (m_x),
-                .m_y    (m_y),
-                .m_last (unused_last),
-                .busy   (line_busy)
+                .clk           (clk),
+                .rst_n         (rst_n),
+                .width         (width),
+                .height        (height),
+                .s_volume_valid(clip_valid && clipping),
+                .s_volume_ready(clip_stage_ready),
+                .s_volume_data (clip_data),
+                .m_volume_valid(clipped_valid),
+                .m_volume_ready(scale_ready),
+                .m_volume_data (clipped_data),
+                .idle          (clip_stage_idle),
+                .s_valid       (line_valid),
+                .s_ready       (line_ready),
+                .s_on_screen   (on_screen),
+                .s_a_x         (a_x),
+                .s_a_y         (a_y),
+                .s_b_x         (b_x),
+                .s_b_y         (b_y),
+                .m_valid       (m_valid),
+                .m_ready       (m_ready),
+                .m_x           (m_x),
+                .m_y           (m_y),
+                .m_steep       (line_steep),
+                .m_last        (unused_last),
+                .busy          (line_busy)
             );
         end else begin : g_line
+            assign clip_stage_ready = 1'b1;
+            assign clip_stage_idle  = 1'b1;
+            assign clipped_valid    = 1'b0;
+            assign clipped_data     = '0;
+            assign sides_b          = '0;
             // Both ends are on the screen; two more bits keep line's sums from overflowing.
             logic [W-1:0] x, y;
             logic [      23:0] unused_rgb;
@@ -271,13 +285,14 @@ module wireframe #(
                 .m_ready(m_ready),
                 .m_x    (x),
                 .m_y    (y),
+                .m_steep(line_steep),
                 .m_rgb  (unused_rgb),
                 .m_last (unused_last)
             );
             assign m_x        = x[W_SCREEN-1:0];
             assign m_y        = y[W_SCREEN-1:0];
             assign line_busy  = lines != '0;
-            assign unused_top = ^{x, y, unused_rgb};
+            assign unused_top = ^{x, y, unused_rgb, on_screen};
             always_ff @(posedge clk) begin
                 lines <= lines + 3'(line_valid && line_ready) - 3'(m_valid && m_ready && unused_last);
                 if (!rst_n) lines <= '0;
@@ -287,20 +302,13 @@ module wireframe #(
 
     generate
         if (TAGGED != 0) begin : g_tagged
-            logic [W:0] dx, dy;
-            assign dx = {a_x[W-1], a_x} - {b_x[W-1], b_x};
-            assign dy = {a_y[W-1], a_y} - {b_y[W-1], b_y};
-            always_ff @(posedge clk) begin
-                if (state == LINE && !line_busy) begin
-                    m_steep <= (dy[W] ? -dy : dy) > (dx[W] ? -dx : dx);
-                    m_group <= group;
-                end
-            end
+            assign m_steep = line_steep;
+            always_ff @(posedge clk) if (state == LINE) m_group <= group;
         end else begin : g_plain
             logic unused_group;
             assign m_steep      = 1'b0;
             assign m_group      = 2'd0;
-            assign unused_group = ^group;
+            assign unused_group = ^{group, line_steep};
         end
     endgenerate
 
@@ -345,30 +353,33 @@ module wireframe #(
             end
             END_B: begin
                 projected_address <= end_b;
-                state             <= END_B_SEEN;
+                state             <= TAKE_A;
             end
-            END_B_SEEN: begin
-                {a_y, a_x} <= projected[2*W-1:0];
-                flags_a    <= projected[2*W+:3];
-                state      <= DECIDE;
+            TAKE_A: state <= TAKE_B;
+            TAKE_B: begin
+                clipped <= 1'b0;
+                state   <= DECIDE;
             end
             DECIDE: begin
-                {b_y, b_x} <= projected[2*W-1:0];
-                vertex     <= end_a;
-                second     <= 1'b0;
-                landed     <= 1'b0;
-                started    <= 1'b0;
-                left_over  <= 1'b0;
-                // Both ends before the near plane, or both beyond the far plane: nothing is seen.
-                if (CLIP == 0 && {flags_a, projected[2*W+:3]} != '0) begin
+                vertex    <= end_a;
+                second    <= 1'b0;
+                landed    <= 1'b0;
+                started   <= 1'b0;
+                left_over <= 1'b0;
+                on_screen <= (sides_a | sides_b) == '0;
+                // Both ends before the near plane, or both beyond the far plane, or both beyond one side: nothing is seen.
+                if (CLIP == 0 && (flags_a | flags_b) != '0) begin
                     lost  <= 1'b1;
                     state <= EDGE_READ;
-                end else if ((flags_a[1:0] & projected[2*W+:2]) != 2'd0) begin
+                end else if ((flags_a[1:0] & flags_b[1:0]) != '0) begin
                     state <= EDGE_READ;
-                end else if (flags_a != '0 || projected[2*W+:3] != '0) begin
-                    clipping <= 1'b1;
-                    state    <= CLIP_READ;
-                end else begin
+                end else if ((flags_a | flags_b) != '0) begin
+                    // Rounding may leave a clipped end just outside: the library then draws nothing either.
+                    clipping <= !clipped;
+                    state    <= clipped ? EDGE_READ : CLIP_READ;
+                end else if ((sides_a & sides_b) != '0) begin
+                    state <= EDGE_READ;
+                end else if (TAGGED == 0 || !line_busy) begin
                     state <= LINE;
                 end
             end
@@ -382,19 +393,16 @@ module wireframe #(
             end
             CLIP_WAIT: begin
                 if (project_valid) begin
-                    landed  <= 1'b1;
-                    flags_a <= project_flags;
-                    {b_y, b_x} <= {project_y[4+:W], project_x[4+:W]};
-                    if (!landed) {a_y, a_x} <= {project_y[4+:W], project_x[4+:W]};
-                    // Rounding may leave an end just outside: the library then draws nothing either.
-                    else state <= flags_a != '0 || project_flags != '0 ? EDGE_READ : LINE;
+                    landed   <= 1'b1;
+                    clipped  <= landed;
                     clipping <= !landed;
+                    if (landed) state <= DECIDE;
                 end else if (started && clip_stage_idle && !left_over) begin
                     clipping <= 1'b0;
                     state    <= EDGE_READ;
                 end
             end
-            LINE: if (line_ready && (TAGGED == 0 || !line_busy)) state <= EDGE_READ;
+            LINE: if (line_ready) state <= EDGE_READ;
             DRAIN: begin
                 // A line that was just taken makes line_busy a clock later, and EDGE_READ lies between.
                 if (!line_busy) begin

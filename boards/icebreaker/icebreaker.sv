@@ -63,7 +63,6 @@ module icebreaker (
         .SPIN          (1),
         .BUTTONS       (1),
         .MULTIPLIERS   (1),
-        .CLIP          (0),
         .VERTICES      (512),
         .EDGES         (1024),
         .MODEL_VERTICES(400),

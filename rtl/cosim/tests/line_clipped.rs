@@ -1,4 +1,4 @@
-//! `line_clipped.sv` and the library's clipped walk; `muldiv.sv` and a division.
+//! `line_clipped.sv` and the library's clipped walk; `clip_alu.sv` and a division.
 
 use scanout::raster::line::{ClipRect, LineEnd, walk_with};
 use scanout_cosim::{Model, Random, Stalls, Stream, exchange};
@@ -13,10 +13,28 @@ fn count(usual: usize) -> usize {
 
 #[test]
 fn a_product_divided() {
-    let mut model = Model::new("muldiv");
-    model.reset();
-    let [start, busy, b, n, d, q, r] =
-        ["start", "busy", "b", "n", "d", "q", "r"].map(|name| model.port(name));
+    let mut model = Model::new("clip_alu");
+    let controls = ["load", "accumulate", "twice", "use_word", "invert", "carry", "quotient"]
+        .into_iter()
+        .chain(["use_input", "divide", "shift", "run", "prepare"])
+        .map(|name| model.port(name))
+        .collect::<Vec<_>>();
+    let [load, quotient, use_input, use_word, divide, run, prepare, s_data, word, other, last, r] =
+        [
+            "load",
+            "quotient",
+            "use_input",
+            "use_word",
+            "divide",
+            "run",
+            "prepare",
+            "s_data",
+            "word",
+            "other",
+            "last",
+            "accumulator",
+        ]
+        .map(|name| model.port(name));
     let mut random = Random::new(1);
     for i in 0..count(4000) {
         let bits = random.range(1, 14);
@@ -26,24 +44,37 @@ fn a_product_divided() {
             1 => divisor,
             _ => random.below(divisor + 1),
         };
-        let other = random.below(1 << 12);
-        model.set(b, other);
-        model.set(n, factor);
-        model.set(d, divisor);
-        model.set(start, 1);
-        model.clock();
-        model.set(start, 0);
-        let begin = model.clocks();
-        while model.get(busy) == 1 {
+        let number = random.below(1 << 12);
+        // One clock to prepare, then an operation with these controls until its last clock.
+        let operation = |model: &mut Model, on: &[scanout_cosim::Port]| {
+            for &port in &controls {
+                model.set(port, u64::from(on.contains(&port)));
+            }
+            model.set(prepare, 1);
+            model.set(word, divisor);
             model.clock();
-            assert!(model.clocks() - begin <= 3 * 12, "{other} {factor} / {divisor}: no end");
-        }
-        let product = other * factor;
-        assert_eq!(
-            (model.get(q), model.get(r)),
-            (product / divisor, product % divisor),
-            "{other} {factor} / {divisor}"
-        );
+            model.set(prepare, 0);
+            model.set(run, 1);
+            for _ in 0..=3 * 12 {
+                model.eval();
+                let (ends, next) = (model.get(last) == 1, model.get(other) == 1);
+                model.clock();
+                model.set(word, if next { factor } else { divisor });
+                if ends {
+                    model.set(run, 0);
+                    return;
+                }
+            }
+            panic!("{number} {factor} / {divisor}: no end");
+        };
+        model.set(s_data, number);
+        operation(&mut model, &[load, use_input]);
+        operation(&mut model, &[divide, use_word]);
+        let product = number * factor;
+        assert_eq!(model.get(r), product % divisor, "{number} {factor} / {divisor}: rest");
+        // The rest is not negative: the quotient comes out with one added.
+        operation(&mut model, &[load, quotient]);
+        assert_eq!(model.get(r), product / divisor + 1, "{number} {factor} / {divisor}");
     }
 }
 
@@ -72,7 +103,7 @@ fn random_line(random: &mut Random, [width, height]: [i64; 2]) -> [LineEnd; 2] {
 fn visible_pixels_never_move() {
     let mut model = Model::new("line_clipped");
     model.reset();
-    let source = Stream::new(&model, "s", &["a_x", "a_y", "b_x", "b_y"]);
+    let source = Stream::new(&model, "s", &["a_x", "a_y", "b_x", "b_y", "on_screen"]);
     let sink = Stream::new(&model, "m", &["x", "y", "last"]);
     let (width_port, height_port) = (model.port("width"), model.port("height"));
     let mut random = Random::new(9);
@@ -101,8 +132,13 @@ fn visible_pixels_never_move() {
             }
         }
         assert!(cut > count(100) as u32, "only {cut} lines cross the border");
-        let words: Vec<Vec<u64>> =
-            lines.iter().map(|[a, b]| [a.x, a.y, b.x, b.y].map(|v| v as u64).to_vec()).collect();
+        let words: Vec<Vec<u64>> = lines
+            .iter()
+            .map(|[a, b]| {
+                let on_screen = clip.contains(a.x, a.y) && clip.contains(b.x, b.y);
+                [a.x, a.y, b.x, b.y, i32::from(on_screen)].map(|v| v as u64).to_vec()
+            })
+            .collect();
         let stalls = Stalls { source: 20 * (round as u64 % 2), sink: 30 * (round as u64 / 2 % 2) };
         let got = exchange(&mut model, &source, &words, &sink, expected.len(), stalls, &mut random);
         assert!(got.received == expected, "{size:?}: pixels differ");

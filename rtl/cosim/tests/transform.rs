@@ -185,7 +185,7 @@ fn screen_positions_are_the_librarys() {
 
 #[test]
 fn clocks_of_a_vertex_in_view() {
-    for (name, expected) in [("project", 78), ("project_depth", 97)] {
+    for (name, expected) in [("project", 79), ("project_depth", 98)] {
         let mut model = Model::new(name);
         model.reset();
         let (width, height) = (model.port("width"), model.port("height"));
