@@ -73,14 +73,14 @@ for line in sys.stdin.read().splitlines():
 
 
 def yosys(lines):
-    """Runs a script, a command a line; what Yosys printed."""
+    """Runs a script, a command a line, from the repository's root; what Yosys printed."""
     script = "\n".join(lines) + "\n"
     if importlib.util.find_spec("pyosys"):
-        return run([sys.executable, "-c", PYOSYS], text=script)
+        return run([sys.executable, "-c", PYOSYS], text=script, cwd=RTL.parent)
     program = tool("yosys")
     if program is None:
         sys.exit("Yosys is missing: pip install pyosys==0.70")
-    return run([*program, "-p", "; ".join(lines)])
+    return run([*program, "-p", "; ".join(lines)], cwd=RTL.parent)
 
 
 def tool(name):
@@ -95,7 +95,8 @@ def tool(name):
 def read_verilog(configuration):
     """Commands that read a configuration with Yosys' own front end."""
     files = " ".join(str(path) for path in needed(configuration.top))
-    sets = " ".join(f"-chparam {k} {v}" for k, v in configuration.parameters.items())
+    # Text cannot be given here: a table's name, which changes neither ports nor widths.
+    sets = " ".join(f"-chparam {k} {v}" for k, v in configuration.parameters.items() if '"' not in v)
     return [f"read_verilog -sv -I{RTL} {files}", f"hierarchy -check -top {configuration.top} {sets}"]
 
 

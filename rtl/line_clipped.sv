@@ -12,8 +12,7 @@
 //   | idle          | clip has no line                                                                                   |
 //   | busy          | a line is in here                                                                                  |
 //
-// Clocks: a pixel a clock; a line takes at least 1, and what clip needs where it leaves the screen, which the one before may be walked
-// in.
+// Clocks: a pixel a clock; a line takes at least 1, or what clip needs where it leaves the screen, while the one before is walked.
 `default_nettype none
 
 module line_clipped #(

@@ -2,7 +2,7 @@
 //
 // Buttons: up and down turn faster and slower, fire 1 stops and goes on, fire 2 resets. LEDs count pictures.
 //
-//   25 MHz -> PLL -> 71.4 MHz core
+//   25 MHz -> PLL -> 100 MHz core
 //                 ->  25 MHz pixels (59.5 Hz)
 //                 -> 125 MHz, two bits a clock to each of the four lanes
 `default_nettype none
@@ -53,7 +53,7 @@ module ulx3s (
         .BUS           (0),
         .SPIN          (1),
         .BUTTONS       (1),
-        .STABLE        (2_857_000),
+        .STABLE        (4_000_000),
         .MULTIPLIERS   (1),
         .VERTICES      (1024),
         .EDGES         (2048),

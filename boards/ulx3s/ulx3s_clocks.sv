@@ -1,4 +1,4 @@
-// The PLL of the ECP5: 25 MHz times 20 is 500 MHz, divided by 4, 20 and 7.
+// The PLL of the ECP5: 25 MHz times 20 is 500 MHz, divided by 4, 20 and 5.
 `default_nettype none
 
 module ulx3s_clocks (
@@ -8,7 +8,7 @@ module ulx3s_clocks (
     output logic      clk,
     output logic      locked
 );
-    (* FREQUENCY_PIN_CLKI = "25", FREQUENCY_PIN_CLKOP = "125", FREQUENCY_PIN_CLKOS = "25", FREQUENCY_PIN_CLKOS2 = "71.428571",
+    (* FREQUENCY_PIN_CLKI = "25", FREQUENCY_PIN_CLKOP = "125", FREQUENCY_PIN_CLKOS = "25", FREQUENCY_PIN_CLKOS2 = "100",
        ICP_CURRENT = "12", LPF_RESISTOR = "8", MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
     EHXPLLL #(
         .PLLRST_ENA    ("DISABLED"),
@@ -31,8 +31,8 @@ module ulx3s_clocks (
         .CLKOS_CPHASE  (19),
         .CLKOS_FPHASE  (0),
         .CLKOS2_ENABLE ("ENABLED"),
-        .CLKOS2_DIV    (7),
-        .CLKOS2_CPHASE (6),
+        .CLKOS2_DIV    (5),
+        .CLKOS2_CPHASE (4),
         .CLKOS2_FPHASE (0)
     ) i_pll (
         .RST         (1'b0),

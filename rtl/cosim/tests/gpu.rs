@@ -276,19 +276,24 @@ fn stand_alone_turns_the_model_without_a_host() {
 }
 
 #[test]
-fn the_small_configuration_draws_what_is_in_view() {
+fn the_small_configurations() {
     if common::netlists_only() {
         return;
     }
-    // What the iCEBreaker shows: 320x240 in single-port memory, one multiplier, no clip stages.
-    let mut gpu = Gpu::new("gpu_up5k");
+    small_configuration("gpu_up5k", true);
+    small_configuration("gpu_in_view", false);
+}
+
+/// What the iCEBreaker shows: 320x240 in single-port memory, one multiplier; with clip stages or without.
+fn small_configuration(name: &str, clip: bool) {
+    let mut gpu = Gpu::new(name);
     gpu.stop(false);
     let model = model("torus.obj");
     let mesh = model.parts[0].mesh.as_mesh();
     gpu.load(&mesh);
     let (camera, spin) = board_spin();
     let material = Material { colour: INK, ..Material::default() };
-    for angle in (0..1024).step_by(if views(1) == 1 { 128 } else { 16 }) {
+    for angle in (0..1024).step_by(if clip && views(1) != 1 { 16 } else { 128 }) {
         let matrix = spin.matrix(angle);
         gpu.matrix(&matrix, 0);
         let picture = gpu.picture();
@@ -310,11 +315,21 @@ fn the_small_configuration_draws_what_is_in_view() {
     }
     println!("torus.obj at 320x240: {} clocks", gpu.read(map::CLOCKS));
     assert_eq!(gpu.read(map::STATUS) & map::STATUS_INCOMPLETE_MASK, 0);
-    // An edge that leaves the screen is left out, and that is told.
-    let near = self::camera(0.0, 20.0, 1.2);
-    gpu.matrix(&clip_matrix(&near, &Mat4::IDENTITY), 0);
-    gpu.picture();
-    assert_ne!(gpu.read(map::STATUS) & map::STATUS_INCOMPLETE_MASK, 0);
+    for (view, distance) in [1.2, 0.7, 0.3].into_iter().enumerate() {
+        let near = self::camera(57.0 * view as f64, 20.0, distance);
+        gpu.matrix(&clip_matrix(&near, &Mat4::IDENTITY), 0);
+        let picture = gpu.picture();
+        let incomplete = gpu.read(map::STATUS) & map::STATUS_INCOMPLETE_MASK != 0;
+        // Without the clip stages an edge that leaves the screen is left out, and that is told.
+        assert_eq!(incomplete, !clip, "{name} from {distance}");
+        if clip {
+            let object = Object::new(&mesh, &material, Mode::Wire);
+            let wanted: Vec<_> =
+                frame(&[object], near, 320, 240).iter().map(|p| common::pins(*p, [4; 3])).collect();
+            let wanted = common::doubled(&wanted, 320);
+            assert_eq!(difference(&picture, &wanted, 640), None, "{name} from {distance}");
+        }
+    }
 }
 
 #[test]
