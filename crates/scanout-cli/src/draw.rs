@@ -3,13 +3,15 @@
 //! The law makes this easy: bands of any height, on any number of threads, give the same pixels.
 
 mod pipeline;
+mod threads;
 
 use std::num::NonZero;
 
 use scanout::hash::FrameHash;
 use scanout::output::{Mono, PixelFormat, Rgb332, Rgb565, Rgb888};
 
-pub use pipeline::{Report, draw_bands, memory};
+pub use pipeline::{Report, memory};
+pub use threads::Threads;
 
 use crate::args;
 use crate::error::Result;
@@ -24,7 +26,7 @@ pub struct Options {
     pub format: args::PixelFormat,
     /// Ordered dither.
     pub dither: bool,
-    /// Lines in a band; by threads when `None`.
+    /// Lines in a band, at least 1; bands of equal work, by threads, when `None`.
     pub bands: Option<u16>,
     /// Threads that draw, at least 1.
     pub threads: usize,
@@ -39,19 +41,6 @@ impl Options {
             bands: args.bands,
             threads: args.threads.map_or_else(processors, usize::from),
         }
-    }
-
-    /// Lines in a band of a frame of `height` lines.
-    fn lines(&self, height: u16) -> u16 {
-        self.bands.map_or_else(|| band_lines(self.threads, height), |lines| lines.min(height))
-    }
-}
-
-/// Lines in a band where nobody chose: one band for one thread, else four a thread, so that none waits long for another.
-pub fn band_lines(threads: usize, height: u16) -> u16 {
-    match threads {
-        0 | 1 => height,
-        threads => height.div_ceil((threads * 4).min(1024) as u16).max(8).min(height),
     }
 }
 
@@ -105,7 +94,7 @@ pub fn scene<F: PixelFormat>(
     size: (u16, u16),
     options: &Options,
 ) -> Result<Vec<F::Word>> {
-    Ok(pipeline::draw::<F>(scene, size, options.lines(size.1), options)?.0)
+    Ok(pipeline::draw::<F>(scene, size, options)?.0)
 }
 
 fn frame_as<F: PixelFormat>(stage: &Stage, shot: &Shot, options: &Options) -> Result<Frame> {
@@ -132,15 +121,13 @@ fn words<F: PixelFormat>(
     options: &Options,
 ) -> Result<(Vec<F::Word>, Vec<Report>)> {
     let Some((how, _)) = shot.view.stereo else {
-        let mut eyes = stage.with_scenes(shot, |scene, size| {
-            pipeline::draw::<F>(scene, size, options.lines(size.1), options)
-        })?;
+        let mut eyes =
+            stage.with_scenes(shot, |scene, size| pipeline::draw::<F>(scene, size, options))?;
         let (words, report) = eyes.remove(0);
         return Ok((words, vec![report]));
     };
     let eyes = stage.with_scenes(shot, |scene, (width, height)| {
-        let lines = options.lines(height);
-        let (pixels, report) = pipeline::draw::<Rgb888>(scene, (width, height), lines, options)?;
+        let (pixels, report) = pipeline::draw::<Rgb888>(scene, (width, height), options)?;
         Ok((Picture { width: width.into(), height: height.into(), pixels }, report))
     })?;
     let picture = stereo::compose(how, &eyes[0].0, &eyes[1].0);
@@ -159,22 +146,4 @@ fn encode<F: PixelFormat>(picture: &Picture, dither: bool) -> Vec<F::Word> {
         }
     }
     words
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bands_have_at_least_one_line_and_at_most_the_frame() {
-        for threads in [1, 2, 7, 256] {
-            for height in [1, 5, 240, 4096] {
-                for bands in [None, Some(1), Some(7), Some(u16::MAX)] {
-                    let format = args::PixelFormat::Rgb888;
-                    let options = Options { format, dither: false, bands, threads };
-                    assert!((1..=height).contains(&options.lines(height)));
-                }
-            }
-        }
-    }
 }

@@ -12,7 +12,7 @@ use std::cell::RefCell;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use scanout::frame::Settings;
+use scanout::frame::Part;
 use scanout::hash::FrameHash;
 use scanout::output::{PixelFormat, Rgb565};
 use scanout::raster::line::fill_cells;
@@ -22,7 +22,7 @@ use scanout_bench::scenes::Data;
 use self::cases::{Case, Content};
 use self::table::Table;
 use crate::args::BenchArgs;
-use crate::draw::{band_lines, draw_bands, processors};
+use crate::draw::{Threads, processors};
 use crate::error::{Error, Result};
 use crate::narrate;
 
@@ -122,37 +122,38 @@ fn measure_frames(
         let size = [settings.width, settings.height];
         let mut hashes = Vec::new();
         // One set of memory for all: what lies in the cache afterwards is the same for each.
-        let most = threads.iter().map(|&threads| depths(settings, threads)).max().unwrap_or(0);
-        let memory = RefCell::new((memory, vec![0; most]));
-        let draw = |threads: usize| {
-            let (memory, depth) = &mut *memory.borrow_mut();
-            let (frame, colour, _) = memory.prepare(black_box(scene), settings);
-            let depth = &mut depth[..depths(settings, threads)];
-            draw_bands::<Rgb565>(&frame, colour, depth, band_lines(threads, settings.height))
-                .expect("memory for the whole frame, and for a band a thread");
+        let memory = RefCell::new(memory);
+        let draw = |count: usize, parts: &mut [Part]| {
+            let threads = Threads::get(count);
+            let memory = &mut **memory.borrow_mut();
+            let (store, colour, depth) = memory.all();
+            let frame = threads
+                .prepare(black_box(scene), settings, store, parts)
+                .expect("a scene that can be drawn");
+            let bands = threads.bands(&frame);
+            threads.draw::<Rgb565>(&frame, &bands, colour, depth).expect("memory for all rows");
         };
-        for &threads in threads {
-            draw(threads);
-            hashes.push(hash(&memory.borrow().0.colour, size));
+        // The most first, for nobody gets more later.
+        Threads::get(threads.iter().copied().max().unwrap_or(1));
+        let mut parts: Vec<_> =
+            threads.iter().map(|&count| (count, Threads::get(count).parts(scene))).collect();
+        for (count, parts) in &mut parts {
+            draw(*count, parts);
+            hashes.push(hash(&memory.borrow().colour, size));
         }
         if hashes.iter().any(|&hash| hash != hashes[0]) {
             let what = "threads changed the picture";
             return Err(Error::failed(name, what, "please report this fault of scanout"));
         }
-        let mut draws: Vec<_> = threads.iter().map(|&threads| move || draw(threads)).collect();
+        let draw = &draw;
+        let mut draws: Vec<_> =
+            parts.iter_mut().map(|(count, parts)| move || draw(*count, parts)).collect();
         let mut contestants: Vec<(usize, &mut dyn FnMut())> = Vec::new();
         for (&threads, draw) in threads.iter().zip(&mut draws) {
             contestants.push((threads, draw));
         }
         Ok((hashes[0], timed(&mut contestants, time)))
     })
-}
-
-/// Words of depth memory for this many threads: a band each, as many as there are bands.
-fn depths(settings: Settings, threads: usize) -> usize {
-    let lines = usize::from(band_lines(threads, settings.height));
-    let bands = usize::from(settings.height).div_ceil(lines);
-    threads.min(bands) * lines * usize::from(settings.width)
 }
 
 fn draw_lines(lines: &[Line], cells: &mut [u16]) {

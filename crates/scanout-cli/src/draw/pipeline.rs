@@ -1,16 +1,14 @@
 //! One scene through the pipeline, on several threads.
 
 use std::fmt;
-use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use scanout::frame::{self, BandError, Needed, ObjectState, Primitive, Settings, Store};
+use scanout::frame::{self, Needed, ObjectState, Primitive, Settings, Store};
 use scanout::output::PixelFormat;
 use scanout::scene::Scene;
 use scanout::transform::Vertex;
 
-use super::Options;
+use super::{Options, Threads};
 use crate::error::{Error, Result};
 
 /// What the pipeline counted and how long it took.
@@ -20,9 +18,9 @@ pub struct Report {
     pub stats: frame::Stats,
     /// Memory for what was prepared, bytes.
     pub store: usize,
-    /// Memory for one band, colour and depth, bytes.
+    /// Memory for the highest band, colour and depth, bytes.
     pub band: usize,
-    /// Bands drawn.
+    /// Bands drawn; together they have colour and depth memory for the whole frame.
     pub bands: usize,
     /// Threads that drew them.
     pub threads: usize,
@@ -36,7 +34,6 @@ pub struct Report {
 pub fn draw<F: PixelFormat>(
     scene: &Scene,
     (width, height): (u16, u16),
-    lines: u16,
     options: &Options,
 ) -> Result<(Vec<F::Word>, Report)> {
     let failed = |error: &dyn fmt::Display| Error::failed("scene", error, "change the options");
@@ -48,66 +45,36 @@ pub fn draw<F: PixelFormat>(
     let store =
         Store { vertices: &mut vertices, primitives: &mut primitives, objects: &mut objects };
     let settings = Settings { dither: options.dither, ..Settings::new(width, height) };
-    let prepared = frame::Frame::prepare(scene, settings, store).map_err(|error| failed(&error))?;
+    let threads = Threads::get(options.threads);
+    let mut parts = threads.parts(scene);
+    let prepared =
+        threads.prepare(scene, settings, store, &mut parts).map_err(|error| failed(&error))?;
     let prepare = start.elapsed();
 
     let start = Instant::now();
     let row = F::words(width.into());
     let mut words = vec![F::Word::default(); row * usize::from(height)];
-    let bands = usize::from(height.div_ceil(lines));
-    let threads = options.threads.min(bands);
-    let mut depths = vec![0; threads * usize::from(width) * usize::from(lines)];
-    draw_bands::<F>(&prepared, &mut words, &mut depths, lines).map_err(|error| failed(&error))?;
-    let band =
-        usize::from(lines) * (row * size_of::<F::Word>() + usize::from(width) * size_of::<u16>());
+    let mut depth = vec![0; usize::from(width) * usize::from(height)];
+    let bands = match options.bands {
+        Some(lines) => {
+            let tops = (0..height).step_by(lines.max(1).into());
+            tops.map(|top| top..top.saturating_add(lines).min(height)).collect()
+        }
+        None => threads.bands(&prepared),
+    };
+    threads.draw::<F>(&prepared, &bands, &mut words, &mut depth).map_err(|error| failed(&error))?;
+    let lines = bands.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+    let band = lines * (row * size_of::<F::Word>() + usize::from(width) * size_of::<u16>());
     let report = Report {
         stats: prepared.stats(),
         store: needed.bytes(),
         band,
-        bands,
-        threads,
+        bands: bands.len(),
+        threads: threads.count().min(bands.len()),
         prepare,
         draw: start.elapsed(),
     };
     Ok((words, report))
-}
-
-/// Draws all rows of a prepared frame into `colour`, `F::words(width)` a row, in bands of `lines` lines. `depths` holds
-/// the depth memory of one band, `width * lines` words, for each thread; a thread takes the next band when it has
-/// finished one.
-///
-/// # Errors
-/// When `colour` is too short for the frame, or `depths` for one band.
-pub fn draw_bands<F: PixelFormat>(
-    frame: &frame::Frame,
-    colour: &mut [F::Word],
-    depths: &mut [u16],
-    lines: u16,
-) -> std::result::Result<(), BandError> {
-    let Settings { width, height, .. } = frame.settings();
-    let rows = |band: usize| -> Range<u16> {
-        let top = band as u16 * lines;
-        top..top.saturating_add(lines).min(height)
-    };
-    let bands = colour.chunks_mut(F::words(width.into()) * usize::from(lines));
-    let queue = Mutex::new(bands.enumerate());
-    let work = |depth: &mut [u16]| -> std::result::Result<(), BandError> {
-        loop {
-            let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((band, colour)) = next else { return Ok(()) };
-            frame.draw_rows::<F>(rows(band), colour, depth)?;
-        }
-    };
-    let mut depths = depths.chunks_mut(usize::from(width) * usize::from(lines));
-    let own = depths.next().unwrap_or_default();
-    std::thread::scope(|scope| {
-        let others: Vec<_> = depths.map(|depth| scope.spawn(|| work(depth))).collect();
-        let mine = work(own);
-        let all = others
-            .into_iter()
-            .map(|other| other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        all.fold(mine, |sum, one| sum.and(one))
-    })
 }
 
 /// Bytes that a scene's prepared contents need at most.
@@ -151,7 +118,7 @@ impl fmt::Display for Report {
         line("clipped", &s.clipped, "clip: cut by near, far or guard band")?;
         line("primitives", &s.primitives, "drawn")?;
         line("store bytes", &self.store, "memory for what is prepared, at most")?;
-        line("band bytes", &self.band, "colour and depth of one band")?;
+        line("band bytes", &self.band, "colour and depth of the highest band")?;
         line("bands", &self.bands, "")?;
         line("threads", &self.threads, "")?;
         line("prepare us", &self.prepare.as_micros(), "transform, light, cull")?;
