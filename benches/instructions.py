@@ -33,7 +33,7 @@ SMALL3DLIB = {"5000:flat": 5.9, "5000:gouraud": 6.8, "5000:textured": 8.1}
 TARGET = {"5000:flat": 1.6, "5000:gouraud": 1.8, "5000:textured": 2.0, "5000:wire": 1.2, "70000:gouraud": 17.0}
 SCALAR_TARGET = {"5000:flat": 2.2, "5000:gouraud": 2.6, "5000:textured": 3.0}
 # Parts of a step and bands for two threads, as crates/scanout-cli/src/draw/threads.rs has them; frames to count.
-PARTS, BANDS, FRAMES = 8, 4, 9
+PARTS, BANDS, FRAMES = 8, 2, 9
 # Instructions a line.
 TINYGL = {"long": 1123, "short": 203}
 LINE_TARGET = {"long": 900, "short": 180}
