@@ -136,6 +136,24 @@ impl Triangle {
         ]
     }
 
+    /// The three edges as a, b and the value at pixel (x, y), by 32-bit arithmetic: for triangles whose box, and the pixel
+    /// in it, is at most 64 pixels wide and high.
+    #[inline]
+    pub(crate) fn near_edges(&self, x: i32, y: i32) -> [[i32; 3]; 3] {
+        let [d1, d2] = self.sides;
+        let (ox, oy) = (16 * x + 8 - self.origin[0], 16 * y + 8 - self.origin[1]);
+        let edge = |[dx, dy]: [i32; 2], at_centre: i32| {
+            let top_left = dy < 0 || (dy == 0 && dx > 0);
+            [-dy, dx, (at_centre - !top_left as i32) >> 4]
+        };
+        let (first, last) = (d1[0] * oy - d1[1] * ox, d2[1] * ox - d2[0] * oy);
+        [
+            edge(d1, first),
+            edge([d2[0] - d1[0], d2[1] - d1[1]], self.area as i32 - first - last),
+            edge([-d2[0], -d2[1]], last),
+        ]
+    }
+
     #[inline(always)]
     fn sides(&self) -> [[i64; 2]; 2] {
         self.sides.map(|d| d.map(i64::from))
@@ -224,6 +242,13 @@ impl Triangle {
     pub fn is_tiny(&self) -> bool {
         let [w, h] = [0, 1].map(|i| (self.max[i] - self.min[i]) as i64 + 1);
         self.small && h * (2 * w + 8) < 2047
+    }
+
+    /// Whether the box has at most so many pixels and is no wider or higher than that.
+    #[inline(always)]
+    pub(crate) fn has_few(&self, pixels: i32) -> bool {
+        let (w, h) = (self.max[0] - self.min[0], self.max[1] - self.min[1]);
+        self.small && w <= pixels && h <= pixels && w * h <= pixels
     }
 
     /// Whether the centre of pixel (x, y) is covered.

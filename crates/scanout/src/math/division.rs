@@ -3,8 +3,40 @@
 //! A divisor below 2^16 leaves remainders of 16 bits, so the dividend can be taken 16 bits at a time by 32-bit divisions, as by
 //! hand. Elsewhere the machine's own division is as good.
 
+use super::recip::RECIP_SEED;
+
 /// A machine of 32 bits: 64-bit shifts and divisions are calls.
 pub(crate) const NARROW: bool = cfg!(target_pointer_width = "32");
+
+/// A machine without any division (Armv6-M, known by what else it lacks): one of 32 bits is a call of a hundred instructions.
+pub(crate) const NO_DIVISION: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+
+/// `floor((2^47 - 1) / q)` for `q` in [2^15, 2^24), without a division: four digits of eight bits, each guessed from the seeds
+/// of [`recip32_newton`](super::recip32_newton), which are right to 2^-9, and set right by one at most.
+#[inline(never)]
+pub(crate) fn reciprocal_by_seeds(q: u32) -> u32 {
+    let s = q.leading_zeros() - 8;
+    let q = q << s;
+    let seed = RECIP_SEED[(q >> 15) as usize & 255] as u32;
+    // (2^47 - 1) 2^s: what is above 32 bits is below q; the rest is ones, then s zeros.
+    let mut rest = (1i32 << (15 + s)) - 1;
+    let low = u32::MAX << s;
+    let mut quotient = 0u32;
+    for shift in [24, 16, 8, 0] {
+        let dividend = ((rest as u32) << 8) | ((low >> shift) & 255);
+        let mut digit = ((dividend >> 16) * seed) >> 23;
+        rest = dividend.wrapping_sub(digit.wrapping_mul(q)) as i32;
+        if rest < 0 {
+            rest += q as i32;
+            digit -= 1;
+        } else if rest >= q as i32 {
+            rest -= q as i32;
+            digit += 1;
+        }
+        quotient = (quotient << 8) + digit;
+    }
+    quotient
+}
 
 /// `floor(n / d)` for `d` from 1 below 2^16: 32 bits, then 16 and 16.
 #[inline]
@@ -52,6 +84,17 @@ fn narrow_fraction(n: i32, d: i32) -> i64 {
 mod tests {
     use super::*;
     use crate::math::testing::Random;
+
+    #[test]
+    fn reciprocals_by_seeds_are_division() {
+        let least = 1 << 15;
+        for q in (least..1 << 24).step_by(13).chain((0..4096).map(|i| (1 << 24) - 1 - i)) {
+            assert_eq!(reciprocal_by_seeds(q) as u64, ((1u64 << 47) - 1) / q as u64, "{q}");
+        }
+        for q in (15..24).flat_map(|bit| [(1 << bit), (1 << bit) + 1, (2 << bit) - 1]) {
+            assert_eq!(reciprocal_by_seeds(q) as u64, ((1u64 << 47) - 1) / q as u64, "{q}");
+        }
+    }
 
     #[test]
     fn digits_are_division() {

@@ -13,7 +13,7 @@
 //!
 //! Cost of a row: three additions and five comparisons; six divisions a triangle.
 
-use crate::math::fraction;
+use crate::math::{NO_DIVISION, fraction};
 use crate::setup::{Edge, Triangle};
 use core::ops::Range;
 
@@ -59,6 +59,7 @@ pub struct Runs<'t> {
     triangle: &'t Triangle,
     /// Of the edge that is alone on its side, then of the two of the other side.
     crossings: [Crossing; 3],
+    steps: Steps,
     way: Way,
     /// The next row.
     y: i32,
@@ -76,6 +77,46 @@ enum Way {
     Divided,
     /// By a test at every pixel.
     Tested,
+    /// The same by additions: for boxes of few pixels where divisions are dear.
+    Stepped,
+}
+
+/// The largest box in pixels, and side, that is [`Way::Stepped`].
+const FEW: i32 = 64;
+
+/// Edges on their way through a small box.
+#[derive(Clone, Copy, Default)]
+struct Steps {
+    /// Values at the first column of the next row.
+    at: [i32; 3],
+    /// Changes a column and a row.
+    across: [i32; 3],
+    down: [i32; 3],
+}
+
+impl Steps {
+    fn new(t: &Triangle, x: i32, y: i32) -> Steps {
+        let [[a0, b0, k0], [a1, b1, k1], [a2, b2, k2]] = t.near_edges(x, y);
+        Steps { at: [k0, k1, k2], across: [a0, a1, a2], down: [b0, b1, b2] }
+    }
+
+    /// The row's run between two columns, the first of which `at` is for; then the next row.
+    #[inline(never)]
+    fn next(&mut self, left: i32, right: i32) -> [i32; 2] {
+        let ([mut e, mut f, mut g], [a, b, c]) = (self.at, self.across);
+        let mut x0 = left;
+        while x0 < right && (e | f | g) < 0 {
+            (e, f, g, x0) = (e + a, f + b, g + c, x0 + 1);
+        }
+        let mut x1 = x0;
+        while x1 < right && (e | f | g) >= 0 {
+            (e, f, g, x1) = (e + a, f + b, g + c, x1 + 1);
+        }
+        for (at, down) in self.at.iter_mut().zip(self.down) {
+            *at += down;
+        }
+        [x0, x1]
+    }
 }
 
 /// The side of a tile.
@@ -114,9 +155,16 @@ impl<'t> Runs<'t> {
     }
 
     #[inline(always)]
-    fn new(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>, way: Way) -> Runs<'t> {
+    fn new(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>, mut way: Way) -> Runs<'t> {
         let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
         let (left, right) = (t.min[0].max(columns.start), t.max[0].min(columns.end));
+        if NO_DIVISION && way == Way::Solved && t.has_few(FEW) {
+            way = Way::Stepped;
+        }
+        let mut steps = Steps::default();
+        if way == Way::Stepped && left < right && top < bottom {
+            steps = Steps::new(t, left, top);
+        }
         let mut crossings = [Crossing { x: 0, step: 0, left: false }; 3];
         if way == Way::Solved {
             let [e, f, g] = t.edges();
@@ -138,7 +186,7 @@ impl<'t> Runs<'t> {
             crossings = [all[order[0]], all[order[1]], all[order[2]]];
         }
         let bottom = if left < right { bottom } else { top };
-        Runs { triangle: t, crossings, way, y: top, bottom, left, right }
+        Runs { triangle: t, crossings, steps, way, y: top, bottom, left, right }
     }
 }
 
@@ -181,6 +229,8 @@ impl Iterator for Runs<'_> {
                 crossing.x += crossing.step;
             }
             [x0.max(self.left), x1.min(self.right)]
+        } else if self.way == Way::Stepped {
+            self.steps.next(self.left, self.right)
         } else {
             ends(self.triangle, y, [self.left, self.right], self.way)
         };
@@ -199,6 +249,10 @@ mod tests {
 
     type Traversal = fn(&Triangle, Range<i32>, i32) -> Vec<Run>;
     const SPANS: Traversal = |t, rows, width| Runs::spans(t, rows, 0..width).collect();
+    const STEPS: Traversal = |t, rows, width| {
+        let way = if t.has_few(FEW) { Way::Stepped } else { Way::Tested };
+        Runs::new(t, rows, 0..width, way).collect()
+    };
     const TILES: Traversal = |t, rows, width| {
         tiles(t, width).flat_map(|columns| Runs::tested(t, rows.clone(), columns)).collect()
     };
@@ -242,12 +296,14 @@ mod tests {
             (seed >> 33) as i32 % n
         };
         for i in 0..4000 {
-            let (low, size) = [(-100, 900), (-3000, 6000), (0, 200), (-(1 << 24), 1 << 25)][i % 4];
+            let (low, size) =
+                [(-100, 900), (-3000, 6000), (0, 200), (-(1 << 24), 1 << 25), (-40, 130)][i % 5];
             let v = [(); 3].map(|()| [low + random(size), low + random(size)]);
             let Some(t) = Triangle::new(v) else { continue };
             let expected: Vec<u8> = (0..40 * 40).map(|i| t.covers(i % 40, i / 40) as u8).collect();
             assert!(count(v, 40, SPANS) == expected, "spans of {v:?}");
             assert!(count(v, 40, TILES) == expected, "tiles of {v:?}");
+            assert!(count(v, 40, STEPS) == expected, "steps of {v:?}");
         }
     }
 

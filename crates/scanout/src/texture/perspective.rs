@@ -6,7 +6,7 @@
 use super::{Filter, MAX_LEVELS, SUBTEXEL_BITS, Texels, Texture, Wrap};
 use crate::features;
 use crate::interpolate::Plane;
-use crate::math::NARROW;
+use crate::math::{NARROW, NO_DIVISION, reciprocal_by_seeds};
 use crate::output::widen565;
 use crate::setup::Triangle;
 
@@ -41,7 +41,7 @@ pub struct TextureSetup<'a> {
 #[inline(always)]
 pub fn reciprocal(q: u32) -> u64 {
     if NARROW && (1 << 15..1 << 24).contains(&q) {
-        long_division(q) as u64
+        if NO_DIVISION { reciprocal_by_seeds(q) as u64 } else { long_division(q) as u64 }
     } else {
         ((1u64 << 47) - 1) / q as u64
     }
