@@ -4,7 +4,7 @@ mod common;
 
 use common::{Memory, Owned, Picture, camera, draw, material, object, scene, sphere};
 use scanout::camera::{Camera, Viewpoint, projection};
-use scanout::frame::{BandError, Frame, Needed, PrepareError, Settings};
+use scanout::frame::{BandError, Frame, Needed, Part, Preparation, PrepareError, Settings, Stats};
 use scanout::math::{Angle, Mat4, Q16, Vec3};
 use scanout::mesh::{Mesh, Normals};
 use scanout::output::{Rgb565, Rgb888};
@@ -284,6 +284,24 @@ fn system_a_addresses_and_overlay() {
     );
 }
 
+/// Prepares a scene at once and in parts, which must come to the same.
+fn tried(scene: &Scene, settings: Settings, needed: Needed) -> Result<Stats, PrepareError> {
+    let mut memory = Memory::new(needed);
+    let whole = Frame::prepare(scene, settings, memory.store()).map(|frame| frame.stats());
+    for count in 1..=4 {
+        let (mut memory, mut parts) = (Memory::new(needed), vec![Part::default(); count]);
+        let in_parts = Preparation::new(scene, settings, memory.store(), &mut parts).and_then(
+            |mut preparation| {
+                preparation.vertex_parts().for_each(|part| part.run());
+                preparation.primitive_parts().for_each(|part| part.run());
+                preparation.finish().map(|frame| frame.stats())
+            },
+        );
+        assert_eq!(in_parts, whole, "{count} parts");
+    }
+    whole
+}
+
 /// Too little memory is an error with the number, never a missing triangle.
 #[test]
 fn too_little_memory_is_said() {
@@ -298,15 +316,13 @@ fn too_little_memory_is_said() {
     let exact =
         Frame::prepare(&scene, settings, memory.store()).unwrap().stats().primitives as usize;
     assert!(exact < most.primitives);
-    let mut memory = Memory::new(Needed { primitives: exact - 1, ..most });
-    match Frame::prepare(&scene, settings, memory.store()) {
+    match tried(&scene, settings, Needed { primitives: exact - 1, ..most }) {
         Err(PrepareError::Store { needed, given }) => {
             assert_eq!((needed.primitives, given.primitives), (exact, exact - 1));
         }
         other => panic!("{other:?}"),
     }
-    let mut memory = Memory::new(Needed { vertices: 3, ..most });
-    let error = Frame::prepare(&scene, settings, memory.store()).unwrap_err();
+    let error = tried(&scene, settings, Needed { vertices: 3, ..most }).unwrap_err();
     assert!(format!("{error}").contains(&format!("needs {}", most.vertices)), "{error}");
     let mut memory = Memory::new(Needed { primitives: exact, ..most });
     let frame = Frame::prepare(&scene, settings, memory.store()).unwrap();
@@ -328,8 +344,7 @@ fn wrong_scenes_are_refused() {
     let try_mesh = |mesh: &Mesh, mode| {
         let objects = [object(mesh, &m, mode)];
         let scene = scene(camera(64, 48), &objects);
-        let mut memory = Memory::new(Needed::at_most(&scene));
-        Frame::prepare(&scene, settings, memory.store()).map(|_| ())
+        tried(&scene, settings, Needed::at_most(&scene)).map(|_| ())
     };
     let index = Err(PrepareError::Index { object: 0, element: 1 });
     let lengths = Err(PrepareError::Lengths { object: 0 });
@@ -357,8 +372,7 @@ fn wrong_scenes_are_refused() {
     let scene_of = |f: &dyn Fn(&mut Scene)| {
         let mut s = scene(camera(64, 48), &[]);
         f(&mut s);
-        let mut memory = Memory::new(Needed::at_most(&s));
-        Frame::prepare(&s, settings, memory.store()).map(|_| ())
+        tried(&s, settings, Needed::at_most(&s)).map(|_| ())
     };
     assert_eq!(scene_of(&|_| ()), Ok(()));
     let lights: Vec<Light> = vec![common::LIGHT; 9];
@@ -369,8 +383,7 @@ fn wrong_scenes_are_refused() {
         Err(PrepareError::Background { needed: 64 * 48, given: 5 })
     );
     let s = scene(camera(64, 48), &[]);
-    let mut memory = Memory::new(Needed::at_most(&s));
-    let size = Frame::prepare(&s, Settings::new(0, 48), memory.store()).unwrap_err();
+    let size = tried(&s, Settings::new(0, 48), Needed::at_most(&s)).unwrap_err();
     assert_eq!(size, PrepareError::Size { width: 0, height: 48 });
 }
 
