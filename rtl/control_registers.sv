@@ -23,7 +23,7 @@ module control_registers (
     output logic control_run,
     output logic control_spin,
     output logic control_camera,
-    output logic [1:0] control_arrangement,
+    output logic [2:0] control_arrangement,
     output logic control_commit,
     input  wire logic status_drawing,
     input  wire logic status_committed,
@@ -37,6 +37,8 @@ module control_registers (
     output logic [15:0] model_edges,
     output logic [9:0] speed,
     input  wire logic [9:0] angle,
+    input  wire logic [1:0] features_way,
+    input  wire logic [1:0] features_stereo,
     output logic [23:0] palette0,
     output logic [23:0] palette1,
     output logic [23:0] palette2,
@@ -75,7 +77,7 @@ module control_registers (
                 read[0+:1] = control_run;
                 read[1+:1] = control_spin;
                 read[2+:1] = control_camera;
-                read[4+:2] = control_arrangement;
+                read[4+:3] = control_arrangement;
             end
             13'h0003: begin
                 read[0+:1] = status_drawing;
@@ -105,6 +107,10 @@ module control_registers (
             13'h000a: begin
                 read[0+:10] = angle;
             end
+            13'h000b: begin
+                read[0+:2] = features_way;
+                read[4+:2] = features_stereo;
+            end
             13'h000c: begin
                 read[0+:24] = palette0;
             end
@@ -119,7 +125,7 @@ module control_registers (
             end
             default: known = 1'b0;
         endcase
-        if (wb_adr[12:4] == 9'h10) known = wb_we;
+        if (wb_adr[12:5] == 8'h8) known = wb_we;
         if (wb_adr[12:9] == 4'h1) known = wb_we;
         if (wb_adr[12:11] == 2'h1) known = wb_we;
         if (wb_adr[12:12] == 1'h1) known = wb_we;
@@ -131,14 +137,14 @@ module control_registers (
         wb_dat_r     <= read;
         window_index <= wb_adr[11:0];
         window_data  <= wb_dat_w;
-        matrix_write <= write && wb_adr[12:4] == 9'h10;
+        matrix_write <= write && wb_adr[12:5] == 8'h8;
         spin_write <= write && wb_adr[12:9] == 4'h1;
         vertex_write <= write && wb_adr[12:11] == 2'h1;
         edge_write <= write && wb_adr[12:12] == 1'h1;
         if (write && wb_adr == 13'h0002) control_run <= (control_run & ~mask[0+:1]) | (wb_dat_w[0+:1] & mask[0+:1]);
         if (write && wb_adr == 13'h0002) control_spin <= (control_spin & ~mask[1+:1]) | (wb_dat_w[1+:1] & mask[1+:1]);
         if (write && wb_adr == 13'h0002) control_camera <= (control_camera & ~mask[2+:1]) | (wb_dat_w[2+:1] & mask[2+:1]);
-        if (write && wb_adr == 13'h0002) control_arrangement <= (control_arrangement & ~mask[4+:2]) | (wb_dat_w[4+:2] & mask[4+:2]);
+        if (write && wb_adr == 13'h0002) control_arrangement <= (control_arrangement & ~mask[4+:3]) | (wb_dat_w[4+:3] & mask[4+:3]);
         control_commit <= write && wb_adr == 13'h0002 && wb_dat_w[8] && mask[8];
         status_late_seen <= (status_late_seen & ~({1{write && wb_adr == 13'h0003}} & wb_dat_w[2+:1] & mask[2+:1])) | status_late;
         status_incomplete_seen <= (status_incomplete_seen & ~({1{write && wb_adr == 13'h0003}} & wb_dat_w[3+:1] & mask[3+:1])) | status_incomplete;
@@ -157,7 +163,7 @@ module control_registers (
             control_run <= 1'h1;
             control_spin <= 1'h1;
             control_camera <= 1'h0;
-            control_arrangement <= 2'h0;
+            control_arrangement <= 3'h0;
             control_commit <= 1'h0;
             status_late_seen <= '0;
             status_incomplete_seen <= '0;

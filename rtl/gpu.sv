@@ -9,6 +9,9 @@
 // spin are at 320 instead of 256.
 //
 //   | BUS 0    | no registers: everything has its value after reset, and the model comes from the HEX files               |
+//   | WAY      | to the screen, see screen; colours of ways 1 and 2 are `palette` by the edge's group                  |
+//   | STEREO   | 1: arrangements 0 to 3, 2: to 6, 3: all (stereo_place has the table); one that is not there, and any  |
+//   |          | with WAY 2, shows one eye                                                                             |
 //   | SPIN 0   | no stand-alone mode                                                                                   |
 //   | BUTTONS  | 1: `buttons[0]` turns faster, `buttons[1]` slower, `buttons[2]` stops and goes on (spin only)          |
 //
@@ -30,6 +33,7 @@ module gpu #(
     parameter int STRIDE_BITS     = 5,
     parameter int SPRAM           = 0,
     parameter int FORMAT          = 3,
+    parameter int DITHER          = 0,
     parameter int MEMORIES        = 12,
     parameter int STEREO          = 0,
     parameter int OVERLAY         = 0,
@@ -86,10 +90,13 @@ module gpu #(
     localparam int W_SCREEN = W_X > W_Y ? W_X : W_Y;
     localparam int W_VERTEX = $clog2(VERTICES);
     localparam int W_EDGE = $clog2(EDGES);
+    localparam int W_ARRANGED = STEREO > 1 ? 3 : 2;
+    localparam logic [1:0] FEATURES_WAY = 2'(WAY);
+    localparam logic [1:0] FEATURES_STEREO = WAY != 2 ? 2'(STEREO) : 2'd0;
 
     // ----------------------------------------------------------------------------------------------------------- registers
     logic        run, use_spin, camera, commit;
-    logic [ 1:0] arrangement;
+    logic [ 2:0] chosen, arrangement;
     logic [23:0] ink, background;
     logic [95:0] palette;
     logic [15:0] vertices, edges;
@@ -121,7 +128,7 @@ module gpu #(
                 .control_run        (run),
                 .control_spin       (use_spin),
                 .control_camera     (camera),
-                .control_arrangement(arrangement),
+                .control_arrangement(chosen),
                 .control_commit     (commit),
                 .status_drawing     (drawing),
                 .status_committed   (committed),
@@ -135,6 +142,8 @@ module gpu #(
                 .model_edges        (edges),
                 .speed              (speed),
                 .angle              (angle),
+                .features_way       (FEATURES_WAY),
+                .features_stereo    (FEATURES_STEREO),
                 .palette0           (palette[23:0]),
                 .palette1           (palette[47:24]),
                 .palette2           (palette[71:48]),
@@ -154,7 +163,7 @@ module gpu #(
             assign wb_dat_r = '0;
             assign wb_ack   = 1'b0;
             assign wb_err   = wb_cyc && wb_stb;
-            assign {run, use_spin, camera, commit, arrangement} = 6'b110000;
+            assign {run, use_spin, camera, commit, chosen} = 7'b1100000;
             assign ink        = 24'hffffff;
             assign background = '0;
             assign palette    = 96'h0000ff_00ff00_ff0000_ffffff;
@@ -163,6 +172,8 @@ module gpu #(
             assign {window_index, window_data, matrix_write, spin_write, vertex_write, edge_write} = '0;
         end
     endgenerate
+
+    assign arrangement = WAY != 2 && (STEREO > 1 || (STEREO == 1 && !chosen[2])) ? chosen : 3'd0;
 
     // -------------------------------------------------------------------------------------------------------------- buttons
     logic       paused;
@@ -303,7 +314,7 @@ module gpu #(
             DRAW: begin
                 if (wireframe_done) begin
                     state <= FINISH;
-                    if (STEREO != 0 && arrangement != 2'd0 && !right) begin
+                    if (arrangement != 3'd0 && !right) begin
                         right <= 1'b1;
                         state <= FILL;
                     end
@@ -329,6 +340,10 @@ module gpu #(
     end
 
     // -------------------------------------------------------------------------------------------------------- pixels to pins
+    localparam logic [W_SCREEN:0] ALL_WIDTH = (W_SCREEN + 1)'(WIDTH);
+    localparam logic [W_SCREEN:0] HALF_WIDTH = (W_SCREEN + 1)'(WIDTH / 2);
+    localparam logic [W_SCREEN:0] ALL_HEIGHT = (W_SCREEN + 1)'(HEIGHT);
+    localparam logic [W_SCREEN:0] HALF_HEIGHT = (W_SCREEN + 1)'(HEIGHT / 2);
     logic                pixel_valid;
     logic                pixel_ready;
     logic [W_SCREEN-1:0] pixel_x;
@@ -337,15 +352,21 @@ module gpu #(
     logic [         1:0] pixel_group;
     logic                busy;
     logic [  W_SCREEN:0] eye_width;
+    logic [  W_SCREEN:0] eye_height;
 
-    assign eye_width = STEREO != 0 && arrangement == 2'd2 ? (W_SCREEN + 1)'(right ? WIDTH - WIDTH / 2 : WIDTH / 2)
-                                                         : (W_SCREEN + 1)'(WIDTH);
+    // Halves: when the side is odd, the right eye has the larger one.
+    always_comb begin
+        eye_width  = ALL_WIDTH;
+        eye_height = ALL_HEIGHT;
+        if (arrangement == 3'd2) eye_width = right ? ALL_WIDTH - HALF_WIDTH : HALF_WIDTH;
+        if (arrangement == 3'd4) eye_height = right ? ALL_HEIGHT - HALF_HEIGHT : HALF_HEIGHT;
+    end
+
     // A vertex's x, y wait for its z, which is written first.
     logic [15:0] z;
     always_ff @(posedge clk) if (vertex_write && window_index[0]) z <= window_data[15:0];
 
-    localparam int TAGGED = WAY == 2 ? 1 : 0;
-    localparam logic [W_SCREEN:0] EYE_HEIGHT = (W_SCREEN + 1)'(HEIGHT);
+    localparam int TAGGED = WAY != 0 ? 1 : 0;
     logic                wireframe_start;
     logic                edge_lost;
     logic                screen_done;
@@ -382,7 +403,7 @@ module gpu #(
         .clk           (clk),
         .rst_n         (rst_n),
         .width         (eye_width),
-        .height        (EYE_HEIGHT),
+        .height        (eye_height),
         .vertices      (vertex_count),
         .edges         (edge_count),
         .vertex_write  (xy_write),
@@ -424,6 +445,7 @@ module gpu #(
         .STRIDE_BITS(STRIDE_BITS),
         .SPRAM      (SPRAM),
         .FORMAT     (FORMAT),
+        .DITHER     (DITHER),
         .MEMORIES   (MEMORIES),
         .STEREO     (STEREO),
         .OVERLAY    (OVERLAY),
@@ -433,7 +455,7 @@ module gpu #(
     ) i_screen (
         .clk           (clk_pixel),
         .rst_n         (pixel_rst_n),
-        .arrangement   (arrangement),
+        .arrangement   (arrangement[W_ARRANGED-1:0]),
         .camera_enable (camera),
         .ink           (ink),
         .background    (background),
@@ -485,7 +507,7 @@ module gpu #(
     end
 
     logic unused_gpu;
-    assign unused_gpu = ^{busy, blank_start, pixel_x, pixel_y, window_index, vertices, edges, word, use_spin};
+    assign unused_gpu = ^{busy, blank_start, pixel_x, pixel_y, window_index, vertices, edges, word, use_spin, arrangement};
 endmodule
 
 `default_nettype wire

@@ -35,11 +35,11 @@ pub const CONTROL_SPIN_RESET: u32 = 0x1;
 pub const CONTROL_CAMERA_MASK: u32 = 0x00000004;
 /// Lowest bit of it.
 pub const CONTROL_CAMERA_LSB: u32 = 2;
-/// 0 mono, 1 anaglyph, 2 side by side, 3 interlaced.
-pub const CONTROL_ARRANGEMENT_MASK: u32 = 0x00000030;
+/// 0 one eye, 1 anaglyph, 2 side by side, 3 interlaced, 4 top and bottom, anaglyphs: 5 grey, 6 half colour, 7 Dubois; `features.stereo` says which there are, another one is 0.
+pub const CONTROL_ARRANGEMENT_MASK: u32 = 0x00000070;
 /// Lowest bit of it.
 pub const CONTROL_ARRANGEMENT_LSB: u32 = 4;
-/// the 16 words in `matrix` take effect with the next picture.
+/// the words in `matrix` take effect with the next picture.
 pub const CONTROL_COMMIT_MASK: u32 = 0x00000100;
 /// Lowest bit of it.
 pub const CONTROL_COMMIT_LSB: u32 = 8;
@@ -112,9 +112,20 @@ pub const ANGLE_MASK: u32 = 0x000003ff;
 /// Lowest bit of it.
 pub const ANGLE_LSB: u32 = 0;
 
+/// Register `features`: address in words.
+pub const FEATURES: u32 = 0x000b;
+/// to the screen: 0 planes of one bit, 1 colour framebuffer, 2 line memories.
+pub const FEATURES_WAY_MASK: u32 = 0x00000003;
+/// Lowest bit of it.
+pub const FEATURES_WAY_LSB: u32 = 0;
+/// arrangements: 0 none, 1 those to 3, 2 those to 6 (7 is as 6), 3 all.
+pub const FEATURES_STEREO_MASK: u32 = 0x00000030;
+/// Lowest bit of it.
+pub const FEATURES_STEREO_LSB: u32 = 4;
+
 /// Register `palette0`: address in words.
 pub const PALETTE0: u32 = 0x000c;
-/// colour of group 0 (line memories).
+/// colour of group 0 (line memories and colour framebuffer).
 pub const PALETTE0_MASK: u32 = 0x00ffffff;
 /// Lowest bit of it.
 pub const PALETTE0_LSB: u32 = 0;
@@ -148,12 +159,12 @@ pub const PALETTE3_LSB: u32 = 0;
 /// Its value after reset.
 pub const PALETTE3_RESET: u32 = 0xff;
 
-/// Window `matrix`: clip matrix, rows x, y, z, w of four words each: 32 bits with sign, one power of two in common (`ClipMatrix::m`).
+/// Window `matrix`: clip matrix, rows x, y, z, w of four words each: 32 bits with sign, one power of two in common (`ClipMatrix::m`); from word 16 on the right eye's.
 pub const MATRIX: u32 = 0x0100;
 /// Its words.
-pub const MATRIX_WORDS: u32 = 16;
+pub const MATRIX_WORDS: u32 = 32;
 
-/// Window `spin`: 0 - 255: sines of a quarter turn, Q2.30; 256 + 4 k: A, B, C of matrix word k: A + (B cos + C sin + 2^29 >> 30).
+/// Window `spin`: 0 - 255: sines of a quarter turn, Q2.30; 256 + 4 k: A, B, C of matrix word k: A + (B cos + C sin + 2^29 >> 30); from word 320 on the right eye's.
 pub const SPIN: u32 = 0x0200;
 /// Its words.
 pub const SPIN_WORDS: u32 = 512;

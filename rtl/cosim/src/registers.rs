@@ -123,10 +123,11 @@ pub const REGISTERS: &[Register] = &[
             field(
                 "arrangement",
                 4,
-                2,
+                3,
                 0,
                 ReadWrite,
-                "0 mono, 1 anaglyph, 2 side by side, 3 interlaced",
+                "0 one eye, 1 anaglyph, 2 side by side, 3 interlaced, 4 top and bottom, anaglyphs: 5 grey, 6 half colour, 7 Dubois; \
+                 `features.stereo` says which there are, another one is 0",
             ),
             field(
                 "commit",
@@ -134,7 +135,7 @@ pub const REGISTERS: &[Register] = &[
                 1,
                 0,
                 Pulse,
-                "the 16 words in `matrix` take effect with the next picture",
+                "the words in `matrix` take effect with the next picture",
             ),
         ],
     ),
@@ -229,9 +230,38 @@ pub const REGISTERS: &[Register] = &[
         &[field("angle", 0, 10, 0, ReadOnly, "of the last picture, in 1/1024 turn")],
     ),
     whole(
+        "features",
+        0x0b,
+        &[
+            field(
+                "way",
+                0,
+                2,
+                0,
+                ReadOnly,
+                "to the screen: 0 planes of one bit, 1 colour framebuffer, 2 line memories",
+            ),
+            field(
+                "stereo",
+                4,
+                2,
+                0,
+                ReadOnly,
+                "arrangements: 0 none, 1 those to 3, 2 those to 6 (7 is as 6), 3 all",
+            ),
+        ],
+    ),
+    whole(
         "palette0",
         0x0c,
-        &[field("palette0", 0, 24, 0x00ff_ffff, ReadWrite, "colour of group 0 (line memories)")],
+        &[field(
+            "palette0",
+            0,
+            24,
+            0x00ff_ffff,
+            ReadWrite,
+            "colour of group 0 (line memories and colour framebuffer)",
+        )],
     ),
     whole(
         "palette1",
@@ -255,14 +285,16 @@ pub const WINDOWS: &[Window] = &[
     Window {
         name: "matrix",
         address: 0x0100,
-        words: 16,
-        text: "clip matrix, rows x, y, z, w of four words each: 32 bits with sign, one power of two in common (`ClipMatrix::m`)",
+        words: 32,
+        text: "clip matrix, rows x, y, z, w of four words each: 32 bits with sign, one power of two in common (`ClipMatrix::m`); \
+               from word 16 on the right eye's",
     },
     Window {
         name: "spin",
         address: 0x0200,
         words: 512,
-        text: "0 - 255: sines of a quarter turn, Q2.30; 256 + 4 k: A, B, C of matrix word k: A + (B cos + C sin + 2^29 >> 30)",
+        text: "0 - 255: sines of a quarter turn, Q2.30; 256 + 4 k: A, B, C of matrix word k: A + (B cos + C sin + 2^29 >> 30); \
+               from word 320 on the right eye's",
     },
     Window {
         name: "vertex",

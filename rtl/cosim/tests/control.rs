@@ -44,7 +44,7 @@ fn the_description_holds_together() {
         next = w.address + w.words;
     }
     assert!(next <= 1 << registers::ADDRESS_BITS);
-    assert_eq!(map::CONTROL_ARRANGEMENT_MASK, 0x30);
+    assert_eq!(map::CONTROL_ARRANGEMENT_MASK, 0x70);
     assert_eq!((map::MAGIC_RESET, map::MATRIX), (registers::MAGIC, 0x100));
 }
 

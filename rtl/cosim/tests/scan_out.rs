@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Pixel, Screen, any_end, difference, line, pack};
+use common::{ARRANGEMENTS, Pixel, Screen, any_end, difference, line, pack};
 use scanout::output::Rgb888;
 use scanout::overlay::mix_row;
 use scanout_cosim::monitor::Mode;
@@ -65,20 +65,6 @@ fn eye(pixels: &[Pixel], right: bool, width: usize, under: &[[u8; 3]]) -> Vec<[u
     picture
 }
 
-/// The codes of the RTL (see `stereo_place.sv`) and what they are to the library; `None` is one eye.
-const CODES: [(u32, Option<Arrangement>); 10] = [
-    (0, None),
-    (1, Some(Arrangement::Anaglyph)),
-    (2, Some(Arrangement::SideBySide)),
-    (2, Some(Arrangement::SideBySideHalf)),
-    (3, Some(Arrangement::Interlaced)),
-    (4, Some(Arrangement::TopBottom)),
-    (4, Some(Arrangement::TopBottomHalf)),
-    (5, Some(Arrangement::AnaglyphGrey)),
-    (6, Some(Arrangement::AnaglyphHalfColour)),
-    (7, Some(Arrangement::AnaglyphDubois)),
-];
-
 /// What a screen shows of two eyes' lines beside what the library composes of them; with a camera only where both eyes' pictures cover
 /// the screen.
 fn shown_and_composed(name: &str, codes: &[(u32, Option<Arrangement>)]) {
@@ -123,7 +109,7 @@ fn stereo_and_overlay_are_the_librarys_integers() {
     if common::netlists_only() {
         return;
     }
-    let four: Vec<_> = CODES.into_iter().filter(|&(code, _)| code < 4).collect();
+    let four: Vec<_> = ARRANGEMENTS.into_iter().filter(|&(code, _)| code < 4).collect();
     shown_and_composed("screen_eyes", &four);
 }
 
@@ -132,7 +118,7 @@ fn all_nine_arrangements_are_the_librarys_integers() {
     if common::netlists_only() {
         return;
     }
-    shown_and_composed("screen_stereo", &CODES);
+    shown_and_composed("screen_stereo", &ARRANGEMENTS);
 }
 
 #[test]

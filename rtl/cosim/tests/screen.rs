@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Pixel, Screen, any_end, difference, doubled, line, pack, pins};
-use scanout::output::{PixelFormat, Rgb332, Rgb565};
+use scanout::output::{Mono, PixelFormat, Rgb332, Rgb565, Rgb888};
 use scanout_cosim::Random;
 use scanout_cosim::monitor::{Mode, Seen};
 
@@ -152,27 +152,32 @@ fn a_colour_framebuffer_holds_any_format() {
     if common::netlists_only() {
         return;
     }
-    let size = (320, 240);
-    let widened = |p: &Pixel, format: u8| match format {
-        2 => {
-            let mut row = [0u16];
-            Rgb565::store(&mut row, 0, Rgb565::encode(p.rgb));
-            Rgb565::load(&row, 0)
-        }
-        _ => {
-            let mut row = [0u8];
-            Rgb332::store(&mut row, 0, Rgb332::encode_dithered(p.rgb, p.x, p.y));
-            Rgb332::load(&row, 0)
-        }
-    };
-    for (name, format, bits) in [("screen_rgb332", 3, [3, 3, 2]), ("screen_rgb565", 2, [8, 8, 8])] {
+    /// A pixel as the framebuffer gives it back.
+    fn stored<F: PixelFormat, const DITHER: bool>(p: &Pixel) -> [u8; 3] {
+        let mut row = [F::Word::default()];
+        let dithered = F::encode_dithered(p.rgb, p.x, p.y);
+        F::store(&mut row, 0, if DITHER { dithered } else { F::encode(p.rgb) });
+        F::load(&row, 0)
+    }
+    type Stored = fn(&Pixel) -> [u8; 3];
+    let configurations: [(&str, usize, Stored, [u32; 3]); 6] = [
+        ("screen_rgb332", 2, stored::<Rgb332, true>, [3, 3, 2]),
+        ("screen_rgb565", 2, stored::<Rgb565, false>, [8; 3]),
+        ("screen_rgb888", 1, stored::<Rgb888, false>, [8; 3]),
+        ("screen_rgb888_2x", 2, stored::<Rgb888, false>, [8; 3]),
+        ("screen_mono", 1, stored::<Mono, true>, [8; 3]),
+        ("screen_mono_2x", 2, stored::<Mono, false>, [8; 3]),
+    ];
+    for (name, scale, stored, bits) in configurations {
+        let size = (SIZE.0 / scale as i32, SIZE.1 / scale as i32);
         let mut screen = Screen::new(name, Mode::VGA, 7);
         (screen.draw_quarters, screen.stalls) = (Some(9), 30);
         screen.set("background", pack(BACK));
         let pictures = pictures(3, 50, size, 8);
         let wanted: Vec<_> = pictures
             .iter()
-            .map(|p| doubled(&painted(p, size, bits, BACK, |p| widened(p, format)), 320))
+            .map(|p| painted(p, size, bits, BACK, stored))
+            .map(|p| if scale == 2 { doubled(&p, 320) } else { p })
             .collect();
         let mut seen = screen.frames(1);
         screen.draw(pictures);

@@ -6,6 +6,21 @@ use std::collections::VecDeque;
 use scanout::raster::line::{self, ClipRect, LineEnd};
 use scanout_cosim::monitor::{Mode, Monitor, Seen};
 use scanout_cosim::{Model, Port, Random};
+use scanout_head::stereo::Arrangement;
+
+/// The codes of the RTL (see `stereo_place.sv`) and what they are to the library; `None` is one eye.
+pub const ARRANGEMENTS: [(u32, Option<Arrangement>); 10] = [
+    (0, None),
+    (1, Some(Arrangement::Anaglyph)),
+    (2, Some(Arrangement::SideBySide)),
+    (2, Some(Arrangement::SideBySideHalf)),
+    (3, Some(Arrangement::Interlaced)),
+    (4, Some(Arrangement::TopBottom)),
+    (4, Some(Arrangement::TopBottomHalf)),
+    (5, Some(Arrangement::AnaglyphGrey)),
+    (6, Some(Arrangement::AnaglyphHalfColour)),
+    (7, Some(Arrangement::AnaglyphDubois)),
+];
 
 /// A pixel on its way to the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
