@@ -95,7 +95,8 @@ impl Along {
         let least = q[0].min(q[1]).min(q[2]);
         let usable = fits && least >= LEAST_Q && size[0].max(size[1]) <= LARGEST;
         // p, rounded up to 16 fraction bits: at covered pixels the plane lies above its least corner, but for rounding.
-        let p = gradients[0].unsigned_abs() / (((least << 8) - (1 << 13)) >> 16).max(1) + 1;
+        let p =
+            gradients[0].unsigned_abs() / ((least << 8).saturating_sub(1 << 13) >> 16).max(1) + 1;
         // Blocks with p^2 n^3 up to 1/16 leave few pixels uncertain.
         let mut length = LONGEST;
         let square = if p < 1 << 11 { p * p } else { u32::MAX };
@@ -164,7 +165,7 @@ impl Along {
             }
             block.at[axis] = at;
             block.step[axis] = slope.wrapping_add(bend) as u32;
-            block.bend[axis] = 2 * bend as u32;
+            block.bend[axis] = (2 * bend) as u32;
             margin = margin.max(own);
         }
         if margin >= 1 << 14 {
@@ -207,7 +208,7 @@ mod tests {
             let repeats = [1, 1, 3][case as usize / 3 % 3] << 16;
             let uv = [(); 3].map(|()| [random.next(repeats) as i32, random.next(repeats) as i32]);
             // From nearly flat to steep.
-            let depth = [1 << 14, 1 << 19, 1 << 22, (1 << 23) - 4096][case as usize / 9 % 4];
+            let depth = [1 << 14, 1 << 19, 1 << 22, (1 << 23) - 1][case as usize / 9 % 4];
             let mut q = [(); 3].map(|()| (1 << 23) - 1 - random.next(depth) as u32);
             q[0] = (1 << 23) - 1;
             let (setup, fits) = sampler.setup_and_fit(&t, uv, q);
