@@ -19,7 +19,7 @@
 use core::ops::Range;
 
 use crate::memory::fill;
-use crate::shade::{modulate, modulate565};
+use crate::shade::{Tints, modulate, modulate565};
 
 /// The 4 x 4 Bayer matrix, `BAYER[y & 3][x & 3]`, 0 - 15.
 pub const BAYER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
@@ -45,6 +45,11 @@ pub trait PixelFormat: Copy + 'static {
     #[inline(always)]
     fn modulate565(texel: u16, rgb: [u8; 3]) -> Self::Pixel {
         Self::encode(modulate(widen565(texel), rgb))
+    }
+    /// The same where tables for the colour are at hand, if they are of this format.
+    #[inline(always)]
+    fn tint(_tints: &Tints, texel: u16, rgb: [u8; 3]) -> Self::Pixel {
+        Self::modulate565(texel, rgb)
     }
     /// Stores a pixel at column `x` of a row.
     fn store(row: &mut [Self::Word], x: usize, pixel: Self::Pixel);
@@ -200,6 +205,10 @@ impl PixelFormat for Rgb565 {
     #[inline(always)]
     fn modulate565(texel: u16, rgb: [u8; 3]) -> u16 {
         modulate565(texel, rgb)
+    }
+    #[inline(always)]
+    fn tint(tints: &Tints, texel: u16, _rgb: [u8; 3]) -> u16 {
+        tints.tint(texel)
     }
     #[inline(always)]
     fn load(row: &[u16], x: usize) -> [u8; 3] {

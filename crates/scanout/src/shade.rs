@@ -40,6 +40,37 @@ pub fn modulate565(texel: u16, rgb: [u8; 3]) -> u16 {
     ((r << 11) | (g << 5) | b) as u16
 }
 
+/// [`modulate565`] by one colour for many texels: a table a channel, 256 bytes.
+#[derive(Clone, Copy, Debug)]
+pub struct Tints {
+    red: [u16; 32],
+    green: [u16; 64],
+    blue: [u16; 32],
+}
+
+impl Tints {
+    /// Cost: 128 products.
+    #[inline(never)]
+    pub fn new(rgb: [u8; 3]) -> Tints {
+        let mut tints = Tints { red: [0; 32], green: [0; 64], blue: [0; 32] };
+        for (i, (red, blue)) in (0..).zip(tints.red.iter_mut().zip(&mut tints.blue)) {
+            *red = modulate565(i << 11, rgb);
+            *blue = modulate565(i, rgb);
+        }
+        for (i, green) in (0..).zip(&mut tints.green) {
+            *green = modulate565(i << 5, rgb);
+        }
+        tints
+    }
+
+    /// The texel times the colour.
+    #[inline(always)]
+    pub fn tint(&self, texel: u16) -> u16 {
+        let [r, g, b] = [texel >> 11, (texel >> 5) & 63, texel & 31].map(usize::from);
+        self.red[r] | self.green[g] | self.blue[b]
+    }
+}
+
 /// `a` where `weight` is 0, `b` where it is 255, linear between.
 #[inline(always)]
 pub fn blend(a: [u8; 3], b: [u8; 3], weight: u8) -> [u8; 3] {
@@ -123,6 +154,10 @@ mod tests {
                 let expected = Rgb565::encode(modulate(widen565(texel), [c; 3]));
                 assert_eq!(modulate565(texel, [c; 3]), expected, "{texel:#x} {c}");
             }
+        }
+        let tints = Tints::new([9, 99, 199]);
+        for texel in 0..=u16::MAX {
+            assert_eq!(tints.tint(texel), modulate565(texel, [9, 99, 199]), "{texel:#x}");
         }
         let expected = Rgb565::encode(modulate(widen565(0xabcd), [9, 99, 199]));
         assert_eq!(modulate565(0xabcd, [9, 99, 199]), expected);

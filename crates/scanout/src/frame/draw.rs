@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walked};
+use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Tabled, Textured, Walked};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
 use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
@@ -140,52 +140,55 @@ impl<'a> Frame<'a> {
         };
         let q = |v: &[&Vertex; 3]| common_inverse_w(*v).0;
         match (features::GOURAUD && source.gouraud, source.texture) {
-            (false, None) => self.draw_alike(source, run, lights, target, |t, v, primitive| {
-                (t.plane(v.map(|v| v.z)), Flat(primitive.rgb))
-            }),
-            (true, None) => {
-                self.draw_alike(source, run, lights, target, |t, v, _| shaded(t, v));
-            }
-            (false, Some(sampler)) if target.walks() => {
-                self.draw_alike(source, run, lights, target, |t, v, primitive| {
-                    let (z, inner) = (t.plane(v.map(|v| v.z)), Flat(primitive.rgb));
-                    let uv = uv(primitive.index as usize);
-                    (z, Walked::new(t, inner, sampler, uv, q(v)))
+            (false, None) => {
+                self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
+                    let z = t.plane(v.map(|v| v.z));
+                    target.fill(t, &z, &Flat(primitive.rgb));
                 });
             }
-            (true, Some(sampler)) if target.walks() => {
-                self.draw_alike(source, run, lights, target, |t, v, primitive| {
-                    let (z, inner) = shaded(t, v);
-                    let uv = uv(primitive.index as usize);
-                    (z, Walked::new(t, inner, sampler, uv, q(v)))
+            (true, None) => {
+                self.draw_alike(source, run, lights, target, |target, t, v, _| {
+                    let (z, shader) = shaded(t, v);
+                    target.fill(t, &z, &shader);
                 });
             }
             (false, Some(sampler)) => {
-                self.draw_alike(source, run, lights, target, |t, v, primitive| {
+                self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
+                    let (uv, q) = (uv(primitive.index as usize), q(v));
+                    if target.tabled(t) {
+                        return draw_tabled(target, t, v, primitive.rgb, sampler, uv, q);
+                    }
                     let (z, inner) = (t.plane(v.map(|v| v.z)), Flat(primitive.rgb));
-                    let uv = uv(primitive.index as usize);
-                    (z, Textured::new(t, inner, sampler, uv, q(v)))
+                    if target.walks() {
+                        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
+                    } else {
+                        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
+                    }
                 });
             }
             (true, Some(sampler)) => {
-                self.draw_alike(source, run, lights, target, |t, v, primitive| {
+                self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
                     let (z, inner) = shaded(t, v);
-                    let uv = uv(primitive.index as usize);
-                    (z, Textured::new(t, inner, sampler, uv, q(v)))
+                    let (uv, q) = (uv(primitive.index as usize), q(v));
+                    if target.walks() {
+                        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
+                    } else {
+                        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
+                    }
                 });
             }
         }
     }
 
-    /// Draws primitives of one object, whose plain ones `make` turns into depth and a shader.
+    /// Draws primitives of one object, its plain ones by `draw`.
     #[inline(never)]
-    fn draw_alike<F: PixelFormat, S: Shader>(
+    fn draw_alike<F: PixelFormat>(
         &self,
         source: &Source,
         run: &[Primitive],
         lights: &mut Option<(u16, Lighting)>,
         target: &mut Target<F>,
-        make: impl Fn(&Triangle, &[&Vertex; 3], &Primitive) -> (Plane, S),
+        draw: impl Fn(&mut Target<F>, &Triangle, &[&Vertex; 3], &Primitive),
     ) {
         let rows = target.rows.clone();
         for primitive in run.iter().filter(|p| p.touches(&rows)) {
@@ -195,8 +198,7 @@ impl<'a> Frame<'a> {
                 && let Some([Some(a), Some(b), Some(c)]) = corners
             {
                 if let Some(t) = Triangle::new([[a.x, a.y], [b.x, b.y], [c.x, c.y]]) {
-                    let (z, shader) = make(&t, &[a, b, c], primitive);
-                    target.fill(&t, &z, &shader);
+                    draw(target, &t, &[a, b, c], primitive);
                 }
             } else {
                 self.draw_primitive(primitive, lights, target);
@@ -309,6 +311,25 @@ impl<'a> Frame<'a> {
             Kind::Point if features::POINTS => painter.point(target),
             Kind::Edge | Kind::Point => {}
         }
+    }
+}
+
+/// Draws a textured triangle of one colour and many pixels.
+#[inline(never)]
+fn draw_tabled<F: PixelFormat>(
+    target: &mut Target<F>,
+    t: &Triangle,
+    v: &[&Vertex; 3],
+    rgb: [u8; 3],
+    sampler: Repeat565,
+    uv: [[i32; 2]; 3],
+    q: [u32; 3],
+) {
+    let (z, inner) = (t.plane(v.map(|v| v.z)), Tabled::new(rgb));
+    if target.walks() {
+        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
+    } else {
+        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
     }
 }
 

@@ -10,7 +10,7 @@ use crate::light::Lighting;
 use crate::math::normalise_q14;
 use crate::output::{PixelFormat, widen565};
 use crate::setup::Triangle;
-use crate::shade::{FogWeights, blend, modulate};
+use crate::shade::{FogWeights, Tints, blend, modulate};
 use crate::texture::{Along, Block, Perspective, Repeat565, Sampler, integer_q, reciprocal};
 
 /// Colours of fragments.
@@ -48,6 +48,11 @@ pub(super) trait Shader {
     #[inline(always)]
     fn encoded<F: PixelFormat>(&self, pixel: &Self::Pixel) -> F::Pixel {
         F::encode(self.colour(pixel))
+    }
+    /// A texel times the pixel's colour, without dither.
+    #[inline(always)]
+    fn tint<F: PixelFormat>(&self, pixel: &Self::Pixel, texel: u16) -> F::Pixel {
+        F::modulate565(texel, self.colour(pixel))
     }
 
     /// Prepares for eight colours at a time.
@@ -96,6 +101,39 @@ impl Shader for Flat {
     fn side_by_side(&self, _: &(), _: &(), _pass: u32) -> [U16x8; 3] {
         self.0.map(|c| U16x8::splat(c as u16))
     }
+}
+
+/// One colour that tints texels by tables, for triangles of many pixels.
+pub(super) struct Tabled {
+    rgb: [u8; 3],
+    tints: Tints,
+}
+
+impl Tabled {
+    pub(super) fn new(rgb: [u8; 3]) -> Tabled {
+        Tabled { rgb, tints: Tints::new(rgb) }
+    }
+}
+
+impl Shader for Tabled {
+    type Pixel = ();
+    type Ramps = ();
+
+    #[inline(always)]
+    fn at(&self, _x: i32, _y: i32) {}
+    #[inline(always)]
+    fn step(&self, _: (), _count: u32) {}
+    #[inline(always)]
+    fn down(&self, _: ()) {}
+    #[inline(always)]
+    fn colour(&self, _: &()) -> [u8; 3] {
+        self.rgb
+    }
+    #[inline(always)]
+    fn tint<F: PixelFormat>(&self, _: &(), texel: u16) -> F::Pixel {
+        F::tint(&self.tints, texel, self.rgb)
+    }
+    fn ramps(&self) {}
 }
 
 /// Colours interpolated linearly on the screen; half a level is added to the planes, so that the whole levels of their values
@@ -196,11 +234,13 @@ impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
     }
     #[inline(always)]
     fn encoded<F: PixelFormat>(&self, (inner, q, st): &Self::Pixel) -> F::Pixel {
-        let (q, rgb) = (integer_q(*q), self.inner.colour(inner));
+        let q = integer_q(*q);
         if T::RGB565 {
-            F::modulate565(self.sampler.texel565(&self.setup, *st, reciprocal(q)), rgb)
+            let texel = self.sampler.texel565(&self.setup, *st, reciprocal(q));
+            self.inner.tint::<F>(inner, texel)
         } else {
-            F::encode(modulate(self.sampler.texel(&self.setup, *st, q, reciprocal(q)), rgb))
+            let texel = self.sampler.texel(&self.setup, *st, q, reciprocal(q));
+            F::encode(modulate(texel, self.inner.colour(inner)))
         }
     }
     #[inline(always)]
@@ -319,7 +359,7 @@ impl<S: Shader> Shader for Walked<'_, S> {
     }
     #[inline(always)]
     fn encoded<F: PixelFormat>(&self, (inner, block, x, y): &Self::Pixel) -> F::Pixel {
-        F::modulate565(self.texel(block, *x, *y), self.inner.colour(inner))
+        self.inner.tint::<F>(inner, self.texel(block, *x, *y))
     }
     fn ramps(&self) {}
 }

@@ -164,6 +164,17 @@ impl<F: PixelFormat> Target<'_, F> {
         NARROW || (features::TILES && self.traversal == Traversal::Tiles)
     }
 
+    /// Whether a triangle's pixels, drawn one after another here, are enough to make tables for their tint.
+    pub(super) fn tabled(&self, t: &Triangle) -> bool {
+        let by_pixels =
+            !lanes::AVAILABLE || !matches!(self.traversal, Traversal::Spans | Traversal::Baseline);
+        if !by_pixels || self.dither || F::rgb565(&mut []).is_none() {
+            return false;
+        }
+        let rows = t.max[1].min(self.rows.end) - t.min[1].max(self.rows.start);
+        (t.max[0].min(self.width as i32) - t.min[0].max(0)) * rows.max(0) >= 512
+    }
+
     /// Depth, shade, output: a triangle's fragments.
     #[inline(always)]
     pub(super) fn fill<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
