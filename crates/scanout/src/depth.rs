@@ -1,6 +1,6 @@
 //! Depth: a 16-bit z-buffer, 0 at the near plane, 65535 at the far plane and where nothing is drawn.
 //!
-//! Depth is linear on the screen (z/w), so it is a [`Plane`](crate::interpolate::Plane) in U16.16. A fragment's depth is
+//! Depth is linear on the screen (z/w), so it is a [`Plane`] in U16.16. A fragment's depth is
 //! that rounded to nearest; the fragment passes when strictly nearer than what is stored, so of two equal ones the
 //! first drawn stays. What it will not do: a linear-in-distance buffer.
 
