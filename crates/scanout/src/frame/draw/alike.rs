@@ -1,0 +1,213 @@
+//! Triangles that are made alike: flat or Gouraud, plain or with a plain texture. How is decided once an object, and those that are clipped
+//! or lit from behind go the general way, in their place in the list.
+//!
+//! | way | where |
+//! |---|---|
+//! | eight at a time | AVX2, RGB565 |
+//! | one by one | elsewhere; formats as in [`setup`](crate::setup) and [`interpolate`](crate::interpolate) |
+
+use super::super::fragment::{Flat, Gouraud, Tabled, Textured, Walked};
+use super::super::target::Target;
+use super::super::{BACK, Frame, Primitive};
+use crate::avx2::{EIGHT, Source, Triangles};
+use crate::features;
+use crate::interpolate::Plane;
+use crate::light::Lighting;
+use crate::mesh::Normals;
+use crate::output::PixelFormat;
+use crate::scene::Mode;
+use crate::setup::Triangle;
+use crate::texture::Repeat565;
+use crate::transform::{Vertex, common_inverse_w};
+
+impl<'a> Frame<'a> {
+    /// What triangles are made from, of objects whose triangles are all made alike.
+    pub(super) fn source<F: PixelFormat>(
+        &self,
+        object: u16,
+        target: &Target<F>,
+    ) -> Option<Source<'a>> {
+        let first_vertex = self.objects[object as usize].first_vertex as usize;
+        let object = &self.scene.objects[object as usize];
+        let mesh = object.mesh;
+        let gouraud = match (object.mode, mesh.normals) {
+            (Mode::Gouraud, Normals::Vertex(_)) => true,
+            (Mode::Flat | Mode::Gouraud, _) => false,
+            _ => return None,
+        };
+        let textured = object.material.texture.filter(|_| !mesh.uv_triangles.is_empty());
+        let texture = textured.and_then(Repeat565::new);
+        if self.fog.is_some() || textured.is_some() != texture.is_some() {
+            return None;
+        }
+        Some(Source {
+            triangles: mesh.triangles,
+            vertices: &self.vertices[first_vertex..first_vertex + mesh.positions.len()],
+            uv_triangles: mesh.uv_triangles,
+            uvs: mesh.uvs,
+            texture,
+            gouraud,
+            rows: (target.rows.start, target.rows.end),
+            width: target.width as i32,
+        })
+    }
+
+    /// Draws primitives of one object one by one: how their triangles are made is decided here, once.
+    pub(super) fn draw_plain<F: PixelFormat>(
+        &self,
+        source: &Source,
+        run: &[Primitive],
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+    ) {
+        let uv = |index: usize| -> [[i32; 2]; 3] {
+            let corners = source.uv_triangles.get(index).copied().unwrap_or_default();
+            corners.map(|i| source.uvs.get(i as usize).copied().unwrap_or_default())
+        };
+        let q = |v: &[&Vertex; 3]| common_inverse_w(*v).0;
+        match (features::GOURAUD && source.gouraud, source.texture) {
+            (false, None) => {
+                self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
+                    let z = t.plane(v.map(|v| v.z));
+                    target.fill(t, &z, &Flat(primitive.rgb));
+                });
+            }
+            (true, None) => {
+                self.draw_alike(source, run, lights, target, |target, t, v, _| {
+                    let (z, shader) = shaded(t, v);
+                    target.fill(t, &z, &shader);
+                });
+            }
+            (false, Some(sampler)) => {
+                self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
+                    let (uv, q) = (uv(primitive.index as usize), q(v));
+                    if target.tabled(t) {
+                        return draw_tabled(target, t, v, primitive.rgb, sampler, uv, q);
+                    }
+                    let (z, inner) = (t.plane(v.map(|v| v.z)), Flat(primitive.rgb));
+                    if target.walks() {
+                        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
+                    } else {
+                        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
+                    }
+                });
+            }
+            (true, Some(sampler)) => {
+                self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
+                    let (z, inner) = shaded(t, v);
+                    let (uv, q) = (uv(primitive.index as usize), q(v));
+                    if target.walks() {
+                        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
+                    } else {
+                        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
+                    }
+                });
+            }
+        }
+    }
+
+    /// Draws primitives of one object, its plain ones by `draw`.
+    #[inline(never)]
+    fn draw_alike<F: PixelFormat>(
+        &self,
+        source: &Source,
+        run: &[Primitive],
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+        draw: impl Fn(&mut Target<F>, &Triangle, &[&Vertex; 3], &Primitive),
+    ) {
+        let rows = target.rows.clone();
+        for primitive in run.iter().filter(|p| p.touches(&rows)) {
+            let indices = source.triangles.get(primitive.index as usize);
+            let corners = indices.map(|t| t.map(|i| source.vertices.get(i as usize)));
+            if source.is_plain(primitive.tag)
+                && let Some([Some(a), Some(b), Some(c)]) = corners
+            {
+                if let Some(t) = Triangle::new([[a.x, a.y], [b.x, b.y], [c.x, c.y]]) {
+                    draw(target, &t, &[a, b, c], primitive);
+                }
+            } else {
+                self.draw_primitive(primitive, lights, target);
+            }
+        }
+    }
+
+    /// Draws primitives of one object in groups of eight.
+    pub(super) fn draw_groups<F: PixelFormat>(
+        &self,
+        source: &Source,
+        run: &[Primitive],
+        lights: &mut Option<(u16, Lighting)>,
+        target: &mut Target<F>,
+    ) {
+        let rows = target.rows.clone();
+        let mut touching = run.iter().filter(|p| p.touches(&rows));
+        let mut triangles = Triangles::default();
+        loop {
+            // What is not of the plain kind, and what fills up the last group, is not ready.
+            let mut group = [&Primitive::EMPTY; EIGHT];
+            let (mut count, mut plain) = (0, 0u32);
+            for (slot, primitive) in group.iter_mut().zip(&mut touching) {
+                *slot = primitive;
+                plain |= (source.is_plain(primitive.tag) as u32) << count;
+                count += 1;
+            }
+            if count == 0 {
+                return;
+            }
+            let Some((avx2, _)) = target.pixels() else { return };
+            avx2.set_up(source, &group.map(|p| p.index), &mut triangles);
+            let ready = triangles.ready & plain;
+            let flat = group.map(|p| p.rgb);
+            let mut next = 0;
+            while next < count {
+                let end = next + (!(ready >> next)).trailing_zeros() as usize;
+                if end > next
+                    && let Some((avx2, mut pixels)) = target.pixels()
+                {
+                    avx2.draw(source, &triangles, next..end.min(count), &flat, &mut pixels);
+                }
+                next = end;
+                if next < count {
+                    self.draw_primitive(group[next], lights, target);
+                    next += 1;
+                }
+            }
+        }
+    }
+}
+
+/// Draws a textured triangle of one colour and many pixels.
+#[inline(never)]
+fn draw_tabled<F: PixelFormat>(
+    target: &mut Target<F>,
+    t: &Triangle,
+    v: &[&Vertex; 3],
+    rgb: [u8; 3],
+    sampler: Repeat565,
+    uv: [[i32; 2]; 3],
+    q: [u32; 3],
+) {
+    let (z, inner) = (t.plane(v.map(|v| v.z)), Tabled::new(rgb));
+    if target.walks() {
+        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
+    } else {
+        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
+    }
+}
+
+/// Depth and colours through three vertices.
+#[inline(always)]
+fn shaded(t: &Triangle, v: &[&Vertex; 3]) -> (Plane, Gouraud) {
+    let [r, g, b] = Gouraud::values(v.map(|v| v.rgb));
+    let [z, r, g, b] = t.planes([v.map(|v| v.z), r, g, b]);
+    (z, Gouraud::of([r, g, b]))
+}
+
+impl Source<'_> {
+    /// Whether a primitive of this tag is made as all of its object: neither clipped nor to be lit from behind.
+    #[inline(always)]
+    fn is_plain(&self, tag: u8) -> bool {
+        tag == Primitive::PLAIN || (tag == BACK && !self.gouraud)
+    }
+}
