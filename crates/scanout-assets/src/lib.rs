@@ -26,6 +26,7 @@ pub mod bake;
 pub mod number;
 pub mod obj;
 pub mod ppm;
+pub mod text;
 
 #[cfg(feature = "std")]
 mod assemble;

@@ -23,6 +23,7 @@
 //! ```
 
 use crate::number::Number;
+use crate::text::{self, Sink, Value};
 use core::fmt;
 
 /// Longest word (or name, with its spaces) in bytes.
@@ -116,22 +117,28 @@ pub struct Error {
     length: u8,
 }
 
+impl Error {
+    /// What `Display` writes, for machines without room for `core::fmt`.
+    pub fn tell(&self, to: Sink<'_>) {
+        text::fill("line %: ", &[Value::Number(self.line as usize)], to);
+        let what = match self.kind {
+            ErrorKind::NotANumber => "'%' is not a finite number; mend the line",
+            ErrorKind::TooFewNumbers => "too few numbers; v and vn need 3, vt needs 1",
+            ErrorKind::BadCorner => "'%' is not a corner; write v, v/t, v//n or v/t/n",
+            ErrorKind::BadIndex => {
+                "'%' refers to no element; indices count from 1, or back from -1"
+            }
+            ErrorKind::WordTooLong => "a word is longer than 512 bytes; is this OBJ?",
+            ErrorKind::TooMany => "more than 2^32 elements; split the file",
+        };
+        let word = &self.word[..usize::from(self.length).min(EXCERPT)];
+        text::fill(what, &[Value::Escaped(word)], to);
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let word = self.word[..usize::from(self.length)].escape_ascii();
-        write!(f, "line {}: ", self.line)?;
-        match self.kind {
-            ErrorKind::NotANumber => write!(f, "'{word}' is not a finite number; mend the line"),
-            ErrorKind::TooFewNumbers => write!(f, "too few numbers; v and vn need 3, vt needs 1"),
-            ErrorKind::BadCorner => {
-                write!(f, "'{word}' is not a corner; write v, v/t, v//n or v/t/n")
-            }
-            ErrorKind::BadIndex => {
-                write!(f, "'{word}' refers to no element; indices count from 1, or back from -1")
-            }
-            ErrorKind::WordTooLong => write!(f, "a word is longer than {WORD} bytes; is this OBJ?"),
-            ErrorKind::TooMany => write!(f, "more than 2^32 elements; split the file"),
-        }
+        text::display(f, |to| self.tell(to))
     }
 }
 

@@ -6,6 +6,7 @@
 //!
 //! Not read: bitmaps (P1, P4) and PAM (P7).
 
+use crate::text::{self, Sink, Value};
 use core::fmt;
 
 /// Greatest width and height.
@@ -52,8 +53,9 @@ pub struct Error {
     pub kind: ErrorKind,
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Error {
+    /// What `Display` writes, for machines without room for `core::fmt`.
+    pub fn tell(&self, to: Sink<'_>) {
         let what = match self.kind {
             ErrorKind::Magic => "not a PPM or PGM; it must begin with P6, P5, P3 or P2",
             ErrorKind::NotANumber => "not a decimal number; export it again",
@@ -64,7 +66,13 @@ impl fmt::Display for Error {
             }
             ErrorKind::Truncated => "the file ends before its last texel; copy it again",
         };
-        write!(f, "byte {}: {what}", self.byte)
+        text::fill("byte %: %", &[Value::Number(self.byte as usize), Value::Text(what)], to);
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        text::display(f, |to| self.tell(to))
     }
 }
 

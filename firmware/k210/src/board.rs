@@ -2,7 +2,6 @@
 
 use core::cell::UnsafeCell;
 use core::convert::Infallible;
-use core::fmt::{self, Write as _};
 
 use embedded_hal::delay::DelayNs;
 use mipidsi::options::{Orientation, Rotation};
@@ -10,6 +9,7 @@ use player::fault::Fault;
 use player::pair::Mailbox;
 use player::play::{Board, Storage, play};
 use player::spi_card::{SpiCard, Traffic};
+use scanout_assets::text::{Value, fill};
 use scanout_display::init::Setup;
 use scanout_display::spi::{SpiError, SpiLink};
 
@@ -54,16 +54,18 @@ impl Board for MaixDock {
         Setup { orientation, ..Setup::default() }.start(&mut self.display, &mut Clock)
     }
 
-    fn say(&mut self, line: fmt::Arguments<'_>) {
-        let _ = writeln!(Console, "{line}");
+    fn say(&mut self, text: &[u8]) {
+        Console.write(text);
     }
 
     fn frame_sent(&mut self, number: u32) {
         if number == 1 {
             let Traffic { bytes, commands } = self.card.traffic();
-            self.say(format_args!(
-                "card until the first frame: {bytes} bytes on the wires, {commands} commands"
-            ));
+            fill(
+                "card until the first frame: % bytes on the wires, % commands\n",
+                &[Value::Number(bytes as usize), Value::Number(commands as usize)],
+                &mut |text| self.say(text),
+            );
         }
     }
 
@@ -80,12 +82,12 @@ pub fn run() -> ! {
         card: SpiCard::new(CardSpi::new(), Clock),
         display: SpiLink::new(DisplayBus::new(), DataCommand),
     };
-    board.say(format_args!("scanout on Maix Dock"));
+    board.say(b"scanout on Maix Dock\n");
     // SAFETY: `start` calls this once, on one hart; nothing else touches the cell.
     let memory = unsafe { &mut *MEMORY.0.get() };
     // Faults are tried again for ever, so this ends when the frames that were asked for are shown.
     let _ = play(&mut board, &mut memory.lend());
-    board.say(format_args!("done"));
+    board.say(b"done\n");
     loop {
         core::hint::spin_loop();
     }

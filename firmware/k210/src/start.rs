@@ -1,7 +1,8 @@
 //! From the boot ROM to `main`: stacks, cleared memory, the second hart held back until then; and the ends: trap, panic.
 
 use core::arch::global_asm;
-use core::fmt::Write as _;
+
+use scanout_assets::text::{Value, fill};
 
 use crate::board;
 use crate::chip::Console;
@@ -64,13 +65,14 @@ extern "C" fn second() -> ! {
 }
 
 extern "C" fn fault(cause: usize, at: usize) -> ! {
-    let _ = writeln!(Console, "trap {cause} at {at:#x}");
+    let values = [Value::Number(cause), Value::Hex(at)];
+    fill("trap % at %\n", &values, &mut |text| Console.write(text));
     stop()
 }
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-    let _ = Console.write_str("panic\n");
+    Console.write(b"panic\n");
     stop()
 }
 

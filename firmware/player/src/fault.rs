@@ -3,6 +3,7 @@
 use core::fmt;
 
 use heapless::String;
+use scanout_assets::text::{self, Sink, Value, fill};
 use scanout_assets::{obj, ppm};
 
 /// Longest path and word kept for a message; longer ones are cut.
@@ -35,14 +36,15 @@ pub enum Part {
     Triangles,
 }
 
-impl fmt::Display for Part {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Part {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
             Part::Positions => "positions (v)",
             Part::TextureCoordinates => "texture coordinates (vt)",
             Part::Normals => "normals (vn)",
             Part::Triangles => "triangles",
-        })
+        }
     }
 }
 
@@ -81,30 +83,31 @@ pub enum ModelFault {
     },
 }
 
-impl fmt::Display for ModelFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ModelFault::Nothing => f.write_str("no faces (f) to draw; is this the right file?"),
-            ModelFault::TooMany { line, part, most } => {
-                write!(
-                    f,
-                    "line {line}: more than the {most} {part} that fit the memory; simplify the model"
-                )
-            }
-            ModelFault::Undefined { line } => {
-                write!(
-                    f,
-                    "line {line}: refers to a v, vt or vn that has not been defined before it"
-                )
-            }
-            ModelFault::TooFar { line } => {
-                write!(f, "line {line}: a coordinate beyond 2000; scale the model down")
-            }
-            ModelFault::Texture { width, height, most } => write!(
-                f,
-                "{width} x {height} texels; at most {most} fit the memory, and 1024 a side; scale the picture down"
+impl ModelFault {
+    /// Says it.
+    pub fn tell(&self, to: Sink<'_>) {
+        let number = |number: u32| Value::Number(number as usize);
+        let none = Value::Text("");
+        let (what, values) = match *self {
+            ModelFault::Nothing => ("no faces (f) to draw; is this the right file?", [none; 3]),
+            ModelFault::TooMany { line, part, most } => (
+                "line %: more than the % % that fit the memory; simplify the model",
+                [number(line), Value::Number(most), Value::Text(part.name())],
             ),
-        }
+            ModelFault::Undefined { line } => (
+                "line %: refers to a v, vt or vn that has not been defined before it",
+                [number(line), none, none],
+            ),
+            ModelFault::TooFar { line } => (
+                "line %: a coordinate beyond 2000; scale the model down",
+                [number(line), none, none],
+            ),
+            ModelFault::Texture { width, height, most } => (
+                "% x % texels; at most % fit the memory, and 1024 a side; scale the picture down",
+                [number(width), number(height), Value::Number(most)],
+            ),
+        };
+        fill(what, &values, to);
     }
 }
 
@@ -162,40 +165,61 @@ pub enum Fault {
     Display,
 }
 
+impl Fault {
+    /// Says it, without `core::fmt`.
+    pub fn tell(&self, to: Sink<'_>) {
+        let none = Value::Text("");
+        let (what, values) = match *self {
+            Fault::Card { fault, sector, tries } => (
+                match fault {
+                    CardFault::Missing => "no SD card answers; insert one, or check its wires",
+                    CardFault::Gone => "the SD card went silent at sector %; insert it again",
+                    CardFault::Checksum => {
+                        "sector % came with a wrong checksum % times; shorten the wires, slow the clock, or copy the card"
+                    }
+                    CardFault::Refused => {
+                        "the SD card refuses to read sector %; copy it to another card"
+                    }
+                },
+                [Value::Number(sector as usize), Value::Number(tries as usize)],
+            ),
+            Fault::Format(what) => {
+                ("no FAT32 on the SD card (%); format it as FAT32", [Value::Text(what), none])
+            }
+            Fault::Damaged(what) => (
+                "the card's file system is damaged (%); repair it on a PC",
+                [Value::Text(what), none],
+            ),
+            Fault::Missing(ref path) => {
+                ("%: no such file; copy it onto the card", [Value::Text(path), none])
+            }
+            Fault::Kind(ref path) => {
+                ("%: a folder and a file are confused; check the path", [Value::Text(path), none])
+            }
+            Fault::Empty(ref path) => {
+                ("%: the file is empty; copy it again", [Value::Text(path), none])
+            }
+            Fault::Show { line, what } => {
+                ("show.txt, line %: %", [Value::Number(line as usize), Value::Text(what)])
+            }
+            Fault::Obj(ref path, _) | Fault::Ppm(ref path, _) => ("%, ", [Value::Text(path), none]),
+            Fault::Model(ref path, _) => ("%: ", [Value::Text(path), none]),
+            Fault::Frame => ("the frame doesn't fit the memory; simplify the model", [none; 2]),
+            Fault::Display => ("the display takes no data; check its wires and power", [none; 2]),
+        };
+        fill(what, &values, to);
+        match self {
+            Fault::Obj(_, error) => error.tell(to),
+            Fault::Ppm(_, error) => error.tell(to),
+            Fault::Model(_, fault) => fault.tell(to),
+            _ => {}
+        }
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Fault::Card { fault: CardFault::Missing, .. } => {
-                f.write_str("no SD card answers; insert one, or check its wires")
-            }
-            Fault::Card { fault: CardFault::Gone, sector, .. } => {
-                write!(f, "the SD card went silent at sector {sector}; insert it again")
-            }
-            Fault::Card { fault: CardFault::Checksum, sector, tries } => write!(
-                f,
-                "sector {sector} came with a wrong checksum {tries} times; shorten the wires, slow the clock, or copy the card"
-            ),
-            Fault::Card { fault: CardFault::Refused, sector, .. } => {
-                write!(f, "the SD card refuses to read sector {sector}; copy it to another card")
-            }
-            Fault::Format(what) => {
-                write!(f, "no FAT32 on the SD card ({what}); format it as FAT32")
-            }
-            Fault::Damaged(what) => {
-                write!(f, "the card's file system is damaged ({what}); repair it on a PC")
-            }
-            Fault::Missing(path) => write!(f, "{path}: no such file; copy it onto the card"),
-            Fault::Kind(path) => {
-                write!(f, "{path}: a folder and a file are confused; check the path")
-            }
-            Fault::Empty(path) => write!(f, "{path}: the file is empty; copy it again"),
-            Fault::Show { line, what } => write!(f, "show.txt, line {line}: {what}"),
-            Fault::Obj(path, error) => write!(f, "{path}, {error}"),
-            Fault::Ppm(path, error) => write!(f, "{path}, {error}"),
-            Fault::Model(path, fault) => write!(f, "{path}: {fault}"),
-            Fault::Frame => f.write_str("the frame doesn't fit the memory; simplify the model"),
-            Fault::Display => f.write_str("the display takes no data; check its wires and power"),
-        }
+        text::display(f, |to| self.tell(to))
     }
 }
 

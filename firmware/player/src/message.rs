@@ -6,7 +6,7 @@ use embedded_graphics::geometry::{OriginDimensions, Point};
 use embedded_graphics::image::GetPixel;
 use embedded_graphics::mono_font::ascii::FONT_6X10;
 use embedded_graphics::pixelcolor::BinaryColor;
-use heapless::String;
+use heapless::Vec;
 use scanout_display::band::SendError;
 use scanout_display::flush::{BlockingInterface, flush};
 use scanout_display::window::Area;
@@ -25,9 +25,16 @@ const TITLE: u16 = 0xffe0;
 const INK: u16 = 0xffff;
 
 /// A message being written.
-pub type Words = String<LENGTH>;
+pub type Words = Vec<u8, LENGTH>;
 
-/// Shows a heading and a message on the whole area, with as many rows at a time as `colour` holds.
+/// Appends what still fits.
+pub fn append(words: &mut Words, text: &[u8]) {
+    let room = LENGTH - words.len();
+    // It fits.
+    let _ = words.extend_from_slice(&text[..text.len().min(room)]);
+}
+
+/// Shows a heading and a message, both UTF-8, on the whole area, with as many rows at a time as `colour` holds.
 ///
 /// # Errors
 /// When `colour` holds no row, or the bus fails.
@@ -35,8 +42,8 @@ pub fn show<I: BlockingInterface>(
     interface: &mut I,
     area: Area,
     colour: &mut [u16],
-    heading: &str,
-    message: &str,
+    heading: &[u8],
+    message: &[u8],
 ) -> Result<(), SendError<I::Error>> {
     let width = usize::from(area.width);
     let lines = (colour.len() / width.max(1)) as u16;
@@ -64,7 +71,7 @@ struct Rows<'b> {
 
 impl Rows<'_> {
     /// The heading and the message, as far as they touch these rows.
-    fn write(&mut self, heading: &str, message: &str) {
+    fn write(&mut self, heading: &[u8], message: &[u8]) {
         let letters = usize::from(self.width.saturating_sub(2 * MARGIN) / STEP.0);
         let mut y = MARGIN;
         self.line(heading, y, TITLE);
@@ -77,12 +84,12 @@ impl Rows<'_> {
 
     /// A line of letters, its highest row at `y`. Letter by letter and pixel by pixel: that is small, and a message may take its
     /// time.
-    fn line(&mut self, text: &str, y: u16, ink: u16) {
+    fn line(&mut self, text: &[u8], y: u16, ink: u16) {
         let size = FONT_6X10.character_size;
         let per_row = FONT_6X10.image.size().width / size.width;
-        for (place, letter) in text.chars().enumerate() {
+        for (place, &letter) in text.iter().filter(|&&byte| begins(byte)).enumerate() {
             // What is not ASCII is a question mark.
-            let code = if matches!(letter, ' '..='~') { u32::from(letter) } else { 0x3f } - 0x20;
+            let code = u32::from(if matches!(letter, b' '..=b'~') { letter } else { b'?' } - b' ');
             let glyph = (code % per_row * size.width, code / per_row * size.height);
             let left = usize::from(MARGIN) + place * usize::from(STEP.0);
             for (row, column) in
@@ -103,17 +110,30 @@ impl Rows<'_> {
     }
 }
 
+/// Whether a letter begins with this byte of UTF-8.
+fn begins(byte: u8) -> bool {
+    byte & 0xc0 != 0x80
+}
+
+/// The byte at which letter number `letters` begins, if there are as many and one.
+fn beyond(text: &[u8], letters: usize) -> Option<usize> {
+    let mut count = 0;
+    text.iter().position(|&byte| {
+        count += usize::from(begins(byte));
+        count > letters
+    })
+}
+
 /// Cuts a text into lines of at most `letters` letters, at spaces where there are any.
-fn wrap(text: &str, letters: usize, line: &mut dyn FnMut(&str)) {
-    for paragraph in text.split('\n') {
+fn wrap(text: &[u8], letters: usize, line: &mut dyn FnMut(&[u8])) {
+    for paragraph in text.split(|&byte| byte == b'\n') {
         let mut rest = paragraph;
-        while let Some((end, _)) = rest.char_indices().nth(letters) {
+        while let Some(end) = beyond(rest, letters) {
             // A line may end right before a space.
-            let whole = rest[end..].starts_with(' ');
-            let space = if whole { Some(end) } else { rest[..end].rfind(' ') };
+            let space = rest[..=end].iter().rposition(|&byte| byte == b' ');
             let cut = space.filter(|&at| at > 0).unwrap_or(end.max(1));
             line(&rest[..cut]);
-            rest = rest[cut..].trim_start();
+            rest = rest[cut..].trim_ascii_start();
         }
         line(rest);
     }
@@ -126,7 +146,9 @@ mod tests {
 
     fn lines(text: &str, letters: usize) -> Vec<std::string::String> {
         let mut lines = Vec::new();
-        wrap(text, letters, &mut |line| lines.push(line.into()));
+        wrap(text.as_bytes(), letters, &mut |line| {
+            lines.push(std::string::String::from_utf8(line.to_vec()).unwrap());
+        });
         lines
     }
 

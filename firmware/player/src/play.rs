@@ -11,11 +11,11 @@
 //! Once the model is in memory the card is not needed any more: pulling it out changes nothing.
 
 use core::cell::Cell;
-use core::fmt::{self, Write as _};
 use core::ops::ControlFlow;
 
 use scanout::frame::{DrawError, Frame, ObjectState, Primitive, Settings, Store};
 use scanout::transform::Vertex;
+use scanout_assets::text::{Value, fill};
 use scanout_display::band::SendError;
 use scanout_display::flush::{self, BlockingInterface};
 use scanout_display::window::Area;
@@ -49,8 +49,8 @@ pub trait Board {
     /// What its bus says.
     fn start_display(&mut self) -> Result<(), <Self::Bus as BlockingInterface>::Error>;
 
-    /// A line on the serial port.
-    fn say(&mut self, line: fmt::Arguments<'_>);
+    /// Text on the serial port, UTF-8; a line ends with a line feed.
+    fn say(&mut self, text: &[u8]);
 
     /// A frame has been sent.
     fn frame_sent(&mut self, _number: u32) {}
@@ -184,32 +184,46 @@ pub fn play<B: Board>(board: &mut B, memory: &mut Memory<'_>) -> Result<(), Faul
 fn report<B: Board>(board: &mut B, loaded: &Loaded, cost: Cost) {
     let Totals { positions, normals, uvs, triangles } = loaded.built.totals;
     let Loaded { show, bytes, .. } = loaded;
-    board.say(format_args!(
-        "{}: {positions} v, {uvs} vt, {normals} vn, {triangles} triangles",
-        show.model
-    ));
     let Cost { sectors, repeated } = cost;
-    board.say(format_args!(
-        "{bytes} bytes of files, {sectors} sectors read, {repeated} of them again"
-    ));
+    let number = |number: &u32| Value::Number(*number as usize);
+    let values = [
+        Value::Text(&show.model),
+        Value::Number(positions),
+        Value::Number(uvs),
+        Value::Number(normals),
+        Value::Number(triangles),
+        number(bytes),
+        number(&sectors),
+        number(&repeated),
+    ];
+    fill(
+        "%: % v, % vt, % vn, % triangles\n% bytes of files, % sectors read, % of them again\n",
+        &values,
+        &mut |text| board.say(text),
+    );
 }
 
 /// Tells a fault on the serial port and, where it works, on the display; then waits.
 fn told<B: Board>(board: &mut B, memory: &mut Memory<'_>, display: bool, fault: &Fault) -> bool {
-    board.say(format_args!("fault: {fault}"));
+    say_fault(board, fault);
     if display {
         let mut words = Words::new();
-        // What doesn't fit is cut.
-        let _ = write!(words, "{fault}");
+        fault.tell(&mut |text| message::append(&mut words, text));
         let (_, bus, _) = board.parts();
         let colour = &mut *memory.buffers.colour[0];
-        let shown = message::show(bus, AREA, colour, "scanout can't go on:", &words);
+        let shown = message::show(bus, AREA, colour, b"scanout can't go on:", &words);
         match shown {
             Ok(()) => board.frame_sent(0),
-            Err(_) => board.say(format_args!("fault: {}", Fault::Display)),
+            Err(_) => say_fault(board, &Fault::Display),
         }
     }
     board.again(fault)
+}
+
+fn say_fault<B: Board>(board: &mut B, fault: &Fault) {
+    board.say(b"fault: ");
+    fault.tell(&mut |text| board.say(text));
+    board.say(b"\n");
 }
 
 fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Result<Loaded, Fault> {

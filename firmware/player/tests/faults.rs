@@ -17,7 +17,14 @@ fn picture(text: &str) -> Picture<u16> {
     let mut bus = common::Bus { model: DisplayModel::new(Glass::default()), silent: 0, after: 0 };
     let setup = scanout_display::init::Setup { orientation: common::TURNED, ..Default::default() };
     setup.start(&mut bus, &mut scanout_display::model::NoDelay).unwrap();
-    message::show(&mut bus, AREA, &mut vec![0; 320 * 240], "scanout can't go on:", text).unwrap();
+    message::show(
+        &mut bus,
+        AREA,
+        &mut vec![0; 320 * 240],
+        b"scanout can't go on:",
+        text.as_bytes(),
+    )
+    .unwrap();
     bus.model.picture().unwrap().upright(common::TURNED)
 }
 

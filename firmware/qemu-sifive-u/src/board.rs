@@ -1,7 +1,6 @@
 //! The board: registers, time, memory, and the player's `Board`.
 
 use core::cell::UnsafeCell;
-use core::fmt::{self, Write as _};
 
 use embedded_hal::delay::DelayNs;
 use mipidsi::options::{Orientation, Rotation};
@@ -9,6 +8,7 @@ use player::fault::Fault;
 use player::pair::Mailbox;
 use player::play::{Board, Storage, play};
 use player::spi_card::{SpiCard, Traffic};
+use scanout_assets::text::{Value, fill};
 use scanout_display::init::Setup;
 use scanout_display::spi::{SpiError, SpiLink};
 
@@ -94,8 +94,8 @@ impl Board for SifiveU {
         Setup { orientation, ..Setup::default() }.start(&mut self.display, &mut Clock)
     }
 
-    fn say(&mut self, line: fmt::Arguments<'_>) {
-        let _ = writeln!(self.console, "{line}");
+    fn say(&mut self, text: &[u8]) {
+        self.console.write(text);
     }
 
     fn frame_sent(&mut self, number: u32) {
@@ -104,9 +104,11 @@ impl Board for SifiveU {
         if number == 1 {
             self.traffic = self.card.traffic();
             let Traffic { bytes, commands } = self.traffic;
-            self.say(format_args!(
-                "card until the first frame: {bytes} bytes on the wires, {commands} commands"
-            ));
+            fill(
+                "card until the first frame: % bytes on the wires, % commands\n",
+                &[Value::Number(bytes as usize), Value::Number(commands as usize)],
+                &mut |text| self.say(text),
+            );
         }
     }
 
@@ -127,24 +129,17 @@ pub fn run() -> ! {
         traffic: Traffic::default(),
         faults: 0,
     };
-    board.say(format_args!(
-        "scanout on sifive_u: {} bytes of memory and {} for texels",
-        Memory::BYTES,
-        size_of::<Memory>() - Memory::BYTES
-    ));
+    fill(
+        "scanout on sifive_u: % bytes of memory and % for texels\n",
+        &[Value::Number(Memory::BYTES), Value::Number(size_of::<Memory>() - Memory::BYTES)],
+        &mut |text| board.say(text),
+    );
     // SAFETY: `start` calls this once, on one hart; nothing else touches the cell.
     let memory = unsafe { &mut *MEMORY.0.get() };
     let result = play(&mut board, &mut memory.lend());
-    let [first, second] = stack_left();
-    board.say(format_args!("stack never used: {first} and {second} bytes"));
-    match result {
-        Ok(()) => {
-            board.say(format_args!("done"));
-            exit(0)
-        }
-        Err(_) => {
-            board.say(format_args!("given up"));
-            exit(1)
-        }
-    }
+    fill("stack never used: % and % bytes\n", &stack_left().map(Value::Number), &mut |text| {
+        board.say(text)
+    });
+    board.say(if result.is_ok() { b"done\n" } else { b"given up\n" });
+    exit(result.is_err().into())
 }

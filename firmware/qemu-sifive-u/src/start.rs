@@ -1,7 +1,8 @@
 //! From reset to `main`: stacks, cleared memory, the second hart held back until then; and the ends: exit, trap, panic.
 
 use core::arch::global_asm;
-use core::fmt::Write as _;
+
+use scanout_assets::text::{Value, fill};
 
 use crate::board;
 use crate::semihosting::exit;
@@ -85,18 +86,20 @@ extern "C" fn second() -> ! {
 }
 
 extern "C" fn fault(cause: usize, at: usize, value: usize) -> ! {
-    let _ = writeln!(Console, "trap {cause} at {at:#x}, value {value:#x}");
+    let values = [Value::Number(cause), Value::Hex(at), Value::Hex(value)];
+    fill("trap % at %, value %\n", &values, &mut |text| Console.write(text));
     exit(1)
 }
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    let _ = Console.write_str("panic");
+    Console.write(b"panic");
     // The place alone: the message would draw in formatting of everything.
     if let (true, Some(place)) = (cfg!(feature = "locations"), info.location()) {
-        let _ = write!(Console, ": {}:{}", place.file(), place.line());
+        let values = [Value::Text(place.file()), Value::Number(place.line() as usize)];
+        fill(": %:%", &values, &mut |text| Console.write(text));
     }
-    let _ = Console.write_str("\n");
+    Console.write(b"\n");
     exit(1)
 }
 

@@ -1,7 +1,6 @@
 //! Clocks, pins, the display, frames: for the RP2040 and the RP2350, whose `chip` modules name what differs.
 
 use core::cell::UnsafeCell;
-use core::fmt::Write as _;
 
 use crate::chip::{hal, timer};
 use embedded_hal_bus::spi::ExclusiveDevice;
@@ -80,8 +79,7 @@ fn main() -> ! {
         (pins.gpio0.into_function::<FunctionUart>(), pins.gpio1.into_function::<FunctionUart>());
     let uart = UartConfig::new(115_200.Hz(), DataBits::Eight, None, StopBits::One);
     let clock = clocks.peripheral_clock.freq();
-    let Ok(mut serial) =
-        UartPeripheral::new(chip.UART0, wires, &mut chip.RESETS).enable(uart, clock)
+    let Ok(serial) = UartPeripheral::new(chip.UART0, wires, &mut chip.RESETS).enable(uart, clock)
     else {
         sleep()
     };
@@ -101,7 +99,7 @@ fn main() -> ! {
         .orientation(Orientation::new().rotate(Rotation::Deg90))
         .init(&mut timer);
     let Ok(display) = display else {
-        let _ = writeln!(serial, "fault: the display can't be started; check its wires");
+        serial.write_full_blocking(b"fault: the display can't be started; check its wires\n");
         sleep()
     };
     let (mut link, ..) = display.release();
@@ -111,7 +109,9 @@ fn main() -> ! {
             let model = match baked(&bytes.0) {
                 Ok(model) => model,
                 Err(error) => {
-                    let _ = writeln!(serial, "fault: {error}");
+                    serial.write_full_blocking(b"fault: ");
+                    error.tell(&mut |text| serial.write_full_blocking(text));
+                    serial.write_full_blocking(b"\n");
                     sleep()
                 }
             };
@@ -123,9 +123,11 @@ fn main() -> ! {
                     let frame = Frame::prepare(scene, Settings::new(WIDTH, HEIGHT), store).ok()?;
                     show(&frame, &mut link, Area::LANDSCAPE, colour, depth, |_| ()).ok()
                 });
-                let line =
-                    if shown.is_some() { "frame" } else { "fault: the frame could not be shown" };
-                let _ = writeln!(serial, "{line}");
+                let line: &[u8] = match shown {
+                    Some(()) => b"frame\n",
+                    None => b"fault: the frame could not be shown\n",
+                };
+                serial.write_full_blocking(line);
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use super::{HEADER, MAGIC, NO_TEXTURE, PALETTE_4, PALETTE_8, PART, TEXTURE, VERSION};
 use super::{VERSION_WITHOUT_PALETTES, WRAPS, crc32};
+use crate::text::{self, Sink, Value};
 use bytemuck::AnyBitPattern;
 use core::fmt;
 use scanout::mesh::{Mesh, Normals, Sphere};
@@ -49,22 +50,29 @@ pub enum BakeError {
     Endian,
 }
 
+impl BakeError {
+    /// What `Display` writes, for machines without room for `core::fmt`.
+    pub fn tell(&self, to: Sink<'_>) {
+        let (what, number) = match *self {
+            Self::Magic => ("not a .mesh file; make one with `scanout bake`", 0),
+            Self::Version(v) => {
+                (".mesh version %, not up to %; bake it again, or update", v.into())
+            }
+            Self::Truncated { need } => ("shorter than its % bytes; copy it again", need),
+            Self::Misaligned => ("not at an address divisible by 4; use bake::Aligned", 0),
+            Self::Section { at } => ("byte %: a section lies outside; bake it again", at),
+            Self::Inconsistent { at } => ("byte %: indices or counts disagree; bake it again", at),
+            Self::Checksum => ("checksum differs; copy it again", 0),
+            Self::Endian => ("a .mesh is read in place on little-endian machines only", 0),
+        };
+        let values = [Value::Number(number as usize), Value::Number(VERSION.into())];
+        text::fill(what, &values, to);
+    }
+}
+
 impl fmt::Display for BakeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Magic => f.write_str("not a .mesh file; make one with `scanout bake`"),
-            Self::Version(v) => {
-                write!(f, ".mesh version {v}, not up to {VERSION}; bake it again, or update")
-            }
-            Self::Truncated { need } => write!(f, "shorter than its {need} bytes; copy it again"),
-            Self::Misaligned => f.write_str("not at an address divisible by 4; use bake::Aligned"),
-            Self::Section { at } => write!(f, "byte {at}: a section lies outside; bake it again"),
-            Self::Inconsistent { at } => {
-                write!(f, "byte {at}: indices or counts disagree; bake it again")
-            }
-            Self::Checksum => f.write_str("checksum differs; copy it again"),
-            Self::Endian => f.write_str("a .mesh is read in place on little-endian machines only"),
-        }
+        text::display(f, |to| self.tell(to))
     }
 }
 

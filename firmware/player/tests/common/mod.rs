@@ -227,6 +227,8 @@ pub struct Pc {
     pub harts: Threads,
     /// Lines of the serial port.
     pub said: Vec<String>,
+    /// The one being said.
+    line: Vec<u8>,
     /// Hashes of the frames that the display showed, from 1.
     pub hashes: Vec<u64>,
     /// Pictures of the messages.
@@ -249,8 +251,16 @@ impl Board for Pc {
         Setup { orientation: TURNED, ..Setup::default() }.start(&mut self.bus, &mut NoDelay)
     }
 
-    fn say(&mut self, line: fmt::Arguments<'_>) {
-        self.said.push(line.to_string());
+    fn say(&mut self, text: &[u8]) {
+        for &byte in text {
+            match byte {
+                b'\n' => {
+                    let line = std::mem::take(&mut self.line);
+                    self.said.push(String::from_utf8(line).unwrap());
+                }
+                _ => self.line.push(byte),
+            }
+        }
     }
 
     fn frame_sent(&mut self, number: u32) {
@@ -278,6 +288,7 @@ impl Pc {
             bus: Bus { model: DisplayModel::new(Glass::default()), silent: 0, after: 0 },
             harts: Threads,
             said: Vec::new(),
+            line: Vec::new(),
             hashes: Vec::new(),
             messages: Vec::new(),
             faults: Vec::new(),
