@@ -30,13 +30,13 @@ impl Pipeline {
         let corners = triangle.0.map(|v| [v.x, v.y]);
         let Some(prepared) = setup::Triangle::new(corners) else { return picture };
         let width = self.width as i32;
-        for Run { y, x0, x1 } in Runs::spans(&prepared, 0..self.height as i32, 0..width) {
+        Runs::spans(&prepared, 0..self.height as i32, 0..width).for_each(|Run { y, x0, x1 }| {
             for x in x0..x1 {
-                let pixel = &mut picture.pixels[(y * width + x) as usize];
+                let pixel = &mut picture.pixels[y * width as usize + x];
                 assert!(pixel.is_none(), "pixel {x}, {y} drawn twice");
-                *pixel = Some(value(&prepared, x, y));
+                *pixel = Some(value(&prepared, x as i32, y as i32));
             }
-        }
+        });
         picture
     }
 }

@@ -36,9 +36,16 @@ pub fn test(stored: &mut u16, depth: u16) -> bool {
     let pass = depth < *stored;
     if pass {
         *stored = depth;
+    } else {
+        seldom();
     }
     pass
 }
+
+/// Tells the compiler which way is the rarer one.
+#[cold]
+#[inline(always)]
+fn seldom() {}
 
 #[cfg(test)]
 mod tests {

@@ -29,7 +29,7 @@
 //! What it will not do: triangles without area (there is nothing to draw).
 
 use crate::interpolate::Plane;
-use crate::math::floor;
+use crate::math::{NARROW, floor};
 
 /// An edge: a pixel is inside where `a x + b y + k >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -62,18 +62,12 @@ impl Edge {
 /// A triangle ready for the raster stage, and able to make planes.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// `v1 - v0` and `v2 - v0`, times the sign of the area.
-    sides: [[i32; 2]; 2],
-    /// The first corner.
-    origin: [i32; 2],
+    /// Q28.4.
+    pub(crate) corners: [[i32; 2]; 3],
+    /// The corners run counter-clockwise on the screen: the area is negative.
+    pub(crate) turned: bool,
     /// |A|, 1/256 pixel^2.
     pub area: i64,
-    /// First column and first row whose centres may be covered.
-    pub min: [i32; 2],
-    /// One past the last column and the last row.
-    pub max: [i32; 2],
-    /// The largest size of a coordinate, where it is not small.
-    reach: i32,
     /// Every coordinate is below 2^15 in size: edge values fit 32 bits inside the frame.
     pub small: bool,
 }
@@ -81,8 +75,10 @@ pub struct Triangle {
 /// Twice the area with its sign, 1/256 pixel^2: positive for clockwise corners on the screen. Coordinates within +-2^29.
 #[inline(always)]
 pub fn signed_area(v: &[[i32; 2]; 3]) -> i64 {
-    let d1 = [(v[1][0] - v[0][0]) as i64, (v[1][1] - v[0][1]) as i64];
-    let d2 = [(v[2][0] - v[0][0]) as i64, (v[2][1] - v[0][1]) as i64];
+    // Widened where that costs least.
+    let minus = |a: i32, b: i32| if NARROW { (a - b) as i64 } else { a as i64 - b as i64 };
+    let d1 = [minus(v[1][0], v[0][0]), minus(v[1][1], v[0][1])];
+    let d2 = [minus(v[2][0], v[0][0]), minus(v[2][1], v[0][1])];
     d1[0] * d2[1] - d2[0] * d1[1]
 }
 
@@ -100,32 +96,35 @@ impl Triangle {
         if area == 0 {
             return None;
         }
-        let low = |i: usize| v[0][i].min(v[1][i]).min(v[2][i]);
-        let high = |i: usize| v[0][i].max(v[1][i]).max(v[2][i]);
-        let (min, max) = ([low(0), low(1)], [high(0), high(1)]);
         const LIMIT: i32 = (1 << 15) - 1;
-        let small =
-            ((min[0] + LIMIT) | (min[1] + LIMIT) | (LIMIT - max[0]) | (LIMIT - max[1])) >= 0;
-        let reach = if small { 0 } else { (-min[0]).max(-min[1]).max(max[0]).max(max[1]) };
-        let side = |to: [i32; 2]| {
-            let side = [to[0] - v[0][0], to[1] - v[0][1]];
-            if area < 0 { side.map(|d| -d) } else { side }
-        };
-        Some(Triangle {
-            sides: [side(v[1]), side(v[2])],
-            origin: v[0],
-            area: area.abs(),
-            min: min.map(first_pixel),
-            max: max.map(first_pixel),
-            reach,
-            small,
-        })
+        let over = |v: i32| (v + LIMIT) | (LIMIT - v);
+        let small = v.as_flattened().iter().fold(0, |sign, &v| sign | over(v)) >= 0;
+        Some(Triangle { corners: v, turned: area < 0, area: area.abs(), small })
+    }
+
+    /// First column and first row whose centres may be covered.
+    #[inline(always)]
+    pub fn min(&self) -> [i32; 2] {
+        let [a, b, c] = self.corners;
+        [0, 1].map(|i: usize| first_pixel(a[i].min(b[i]).min(c[i])))
+    }
+
+    /// One past the last column and the last row.
+    #[inline(always)]
+    pub fn max(&self) -> [i32; 2] {
+        let [a, b, c] = self.corners;
+        [0, 1].map(|i: usize| first_pixel(a[i].max(b[i]).max(c[i])))
+    }
+
+    /// The largest size of a coordinate.
+    fn reach(&self) -> i32 {
+        self.corners.as_flattened().iter().fold(0, |most, v| most.max(v.abs()))
     }
 
     /// The three edges.
     #[inline(always)]
     pub fn edges(&self) -> [Edge; 3] {
-        let ([d1, d2], o) = (self.sides(), self.offset());
+        let ([d1, d2], o) = (self.wide_sides(), self.offset());
         // The three edge functions add up to the area everywhere.
         let first = d1[0] * o[1] - d1[1] * o[0];
         let last = d2[1] * o[0] - d2[0] * o[1];
@@ -140,8 +139,8 @@ impl Triangle {
     /// in it, is at most 64 pixels wide and high.
     #[inline]
     pub(crate) fn near_edges(&self, x: i32, y: i32) -> [[i32; 3]; 3] {
-        let [d1, d2] = self.sides;
-        let (ox, oy) = (16 * x + 8 - self.origin[0], 16 * y + 8 - self.origin[1]);
+        let ([d1, d2], origin) = (self.sides(), self.corners[0]);
+        let (ox, oy) = (16 * x + 8 - origin[0], 16 * y + 8 - origin[1]);
         let edge = |[dx, dy]: [i32; 2], at_centre: i32| {
             let top_left = dy < 0 || (dy == 0 && dx > 0);
             [-dy, dx, (at_centre - !top_left as i32) >> 4]
@@ -154,15 +153,22 @@ impl Triangle {
         ]
     }
 
+    /// `v1 - v0` and `v2 - v0`, times the sign of the area.
     #[inline(always)]
-    fn sides(&self) -> [[i64; 2]; 2] {
-        self.sides.map(|d| d.map(i64::from))
+    fn sides(&self) -> [[i32; 2]; 2] {
+        let ([from, a, b], sign) = (self.corners, -(self.turned as i32));
+        [a, b].map(|to| [0, 1].map(|i: usize| ((to[i] - from[i]) ^ sign) - sign))
+    }
+
+    #[inline(always)]
+    fn wide_sides(&self) -> [[i64; 2]; 2] {
+        self.sides().map(|d| d.map(i64::from))
     }
 
     /// From the first corner to the centre of pixel (0, 0).
     #[inline(always)]
     fn offset(&self) -> [i64; 2] {
-        self.origin.map(|v| 8 - v as i64)
+        self.corners[0].map(|v| 8 - v as i64)
     }
 
     /// The plane through three values, one a corner, in the attribute's own format; see
@@ -188,7 +194,7 @@ impl Triangle {
         if !self.small {
             return (values.map(|a| self.wide_plane(a)), false);
         }
-        let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
+        let ([d1, d2], [ox, oy]) = (self.wide_sides(), self.offset());
         let half = self.area >> 1;
         let (mut planes, mut fit) = ([Plane::default(); N], true);
         for (plane, a) in planes.iter_mut().zip(&values) {
@@ -207,8 +213,8 @@ impl Triangle {
     #[cold]
     #[inline(never)]
     fn wide_plane(&self, a: [u32; 3]) -> Plane {
-        let e = (32 - (self.reach >> 4).leading_zeros()).saturating_sub(11);
-        let ([d1, d2], [ox, oy]) = (self.sides(), self.offset());
+        let e = (32 - (self.reach() >> 4).leading_zeros()).saturating_sub(11);
+        let ([d1, d2], [ox, oy]) = (self.wide_sides(), self.offset());
         let (da1, da2) = (a[1] as i64 - a[0] as i64, a[2] as i64 - a[0] as i64);
         let gx = self.long_quotient(da1 * d2[1] - da2 * d1[1], 4 + e);
         let gy = self.long_quotient(d1[0] * da2 - d2[0] * da1, 4 + e);
@@ -240,14 +246,16 @@ impl Triangle {
     /// |value| <= 16 (h + 1) (w + 9) + 16 (w + 1) (h + 1) + 1.
     #[inline]
     pub fn is_tiny(&self) -> bool {
-        let [w, h] = [0, 1].map(|i| (self.max[i] - self.min[i]) as i64 + 1);
+        let (min, max) = (self.min(), self.max());
+        let [w, h] = [0, 1].map(|i| (max[i] - min[i]) as i64 + 1);
         self.small && h * (2 * w + 8) < 2047
     }
 
     /// Whether the box has at most so many pixels and is no wider or higher than that.
     #[inline(always)]
     pub(crate) fn has_few(&self, pixels: i32) -> bool {
-        let (w, h) = (self.max[0] - self.min[0], self.max[1] - self.min[1]);
+        let (min, max) = (self.min(), self.max());
+        let (w, h) = (max[0] - min[0], max[1] - min[1]);
         self.small && w <= pixels && h <= pixels && w * h <= pixels
     }
 
@@ -294,8 +302,8 @@ mod tests {
             for y in -2..34 {
                 for x in -2..34 {
                     assert_eq!(t.covers(x, y), covered(&v, x, y), "{v:?} at {x},{y}");
-                    let boxed =
-                        (t.min[0]..t.max[0]).contains(&x) && (t.min[1]..t.max[1]).contains(&y);
+                    let boxed = (t.min()[0]..t.max()[0]).contains(&x)
+                        && (t.min()[1]..t.max()[1]).contains(&y);
                     assert!(boxed || !t.covers(x, y), "{v:?}: {x},{y} lies outside the box");
                 }
             }
@@ -321,8 +329,8 @@ mod tests {
         let plane = t.plane(a);
         let area = signed_area(&v) as i128;
         let mut worst = 0f64;
-        for y in (t.min[1].max(0)..t.max[1].min(480)).step_by(step as usize) {
-            for x in (t.min[0].max(0)..t.max[0].min(640)).step_by(step as usize) {
+        for y in (t.min()[1].max(0)..t.max()[1].min(480)).step_by(step as usize) {
+            for x in (t.min()[0].max(0)..t.max()[0].min(640)).step_by(step as usize) {
                 if t.covers(x, y) {
                     let p = [16 * x as i128 + 8, 16 * y as i128 + 8];
                     let weight = |i: usize| {
@@ -386,7 +394,7 @@ mod tests {
             if t.small {
                 continue;
             }
-            let e = (32 - (t.reach >> 4).leading_zeros()).saturating_sub(11);
+            let e = (32 - (t.reach() >> 4).leading_zeros()).saturating_sub(11);
             let (area, sign) = (t.area as i128, signed_area(&v).signum() as i128);
             let d = |i: usize, k: usize| (v[i][k] - v[0][k]) as i128 * sign;
             let da = |i: usize| a[i] as i128 - a[0] as i128;
@@ -412,7 +420,7 @@ mod tests {
             let a = [(); 3].map(|()| random.next(1 << 24) as u32);
             if let (Some(s), Some(t)) = (Triangle::new(v), Triangle::new([v[0], v[2], v[1]])) {
                 assert_eq!(s.plane(a), t.plane([a[0], a[2], a[1]]));
-                assert_eq!((s.min, s.max, s.area), (t.min, t.max, t.area));
+                assert_eq!((s.min(), s.max(), s.area), (t.min(), t.max(), t.area));
             }
         }
     }

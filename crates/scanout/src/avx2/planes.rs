@@ -378,8 +378,8 @@ mod tests {
                     continue;
                 }
                 ready += 1;
-                let (left, right) = (t.min[0].max(0), t.max[0].min(WIDTH));
-                let (top, bottom) = (t.min[1].max(ROWS.0), t.max[1].min(ROWS.1));
+                let (left, right) = (t.min()[0].max(0), t.max()[0].min(WIDTH));
+                let (top, bottom) = (t.min()[1].max(ROWS.0), t.max()[1].min(ROWS.1));
                 assert_eq!([got.left[i], got.right[i]], [left, right]);
                 assert_eq!([got.top[i], got.rows[i]], [top, bottom - top]);
                 if left >= right || top >= bottom {

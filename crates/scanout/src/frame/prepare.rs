@@ -447,35 +447,32 @@ impl ObjectPass<'_> {
         list: &mut List,
     ) -> Result<(), PrepareError> {
         let one_sided = self.one_sided();
-        let mut back_facing = 0;
-        for (i, &triangle) in range.clone().zip(&self.object.mesh.triangles[range]) {
-            let vertices = marked.vertices();
-            let [a, b, c] = triangle.map(usize::from);
-            let (Some(a), Some(b), Some(c)) = (vertices.get(a), vertices.get(b), vertices.get(c))
-            else {
-                return Err(PrepareError::Index { object: self.index, element: i });
+        let mut triangles = range.clone().zip(&self.object.mesh.triangles[range.clone()]);
+        let mut kept = 0;
+        while let Some(found) = next_facing(&mut triangles, marked.vertices(), one_sided) {
+            let Ok(Found { index, triangle, corners, area, flags }) = found else {
+                let element = range.end - triangles.len() - 1;
+                return Err(PrepareError::Index { object: self.index, element });
             };
-            if (a.flags | b.flags | c.flags) & CLIP != 0 {
-                self.keep_clipped(i, a.flags & b.flags & c.flags, kind, lighting, list);
+            kept += 1;
+            if (flags[0] | flags[1] | flags[2]) & CLIP != 0 {
+                let all = flags[0] & flags[1] & flags[2];
+                self.keep_clipped(index, all, kind, lighting, list);
                 marked.keep(triangle);
                 continue;
             }
-            let area = signed_area(&[[a.x, a.y], [b.x, b.y], [c.x, c.y]]);
-            if area == 0 || (area > 0 && one_sided) {
-                back_facing += 1;
-                continue;
-            }
-            let low = [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y)];
-            let high = [a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y)];
+            let [a, b, c] = corners;
+            let low = [0, 1].map(|i: usize| a[i].min(b[i]).min(c[i]));
+            let high = [0, 1].map(|i: usize| a[i].max(b[i]).max(c[i]));
             match self.rows(low, high) {
                 Some(rows) => {
-                    self.keep(i, kind as u8, rows, facing(area), lighting, list);
+                    self.keep(index, kind as u8, rows, facing(area), lighting, list);
                     marked.keep(triangle);
                 }
                 None => list.stats.outside += 1,
             }
         }
-        list.stats.back_facing += back_facing;
+        list.stats.back_facing += range.len() as u32 - kept;
         Ok(())
     }
 
@@ -585,6 +582,36 @@ impl ObjectPass<'_> {
         let (y0, y1) = (first_pixel(low[1]).max(0), first_pixel(high[1]).min(height));
         (x0 < x1 && y0 < y1).then_some((y0 as i16, y1 as i16))
     }
+}
+
+/// A triangle that faces the viewer, as it seems, or that the clip stage must cut.
+struct Found {
+    index: usize,
+    triangle: [u16; 3],
+    corners: [[i32; 2]; 3],
+    area: i64,
+    flags: [u8; 3],
+}
+
+/// The next such triangle, or an index that is none. Most triangles are dropped here, so this loop holds nothing but the test.
+#[inline(always)]
+fn next_facing<'t>(
+    triangles: &mut impl Iterator<Item = (usize, &'t [u16; 3])>,
+    vertices: &[Vertex],
+    one_sided: bool,
+) -> Option<Result<Found, ()>> {
+    triangles.find_map(|(index, &triangle)| {
+        let [a, b, c] = triangle.map(usize::from);
+        let (Some(a), Some(b), Some(c)) = (vertices.get(a), vertices.get(b), vertices.get(c))
+        else {
+            return Some(Err(()));
+        };
+        let corners = [[a.x, a.y], [b.x, b.y], [c.x, c.y]];
+        let (area, flags) = (signed_area(&corners), [a.flags, b.flags, c.flags]);
+        let faces =
+            (flags[0] | flags[1] | flags[2]) & CLIP != 0 || !(area == 0 || (area > 0 && one_sided));
+        faces.then_some(Ok(Found { index, triangle, corners, area, flags }))
+    })
 }
 
 /// The lights as an object sees them.

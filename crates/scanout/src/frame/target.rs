@@ -171,8 +171,8 @@ impl<F: PixelFormat> Target<'_, F> {
         if !by_pixels || self.dither || F::rgb565(&mut []).is_none() {
             return false;
         }
-        let rows = t.max[1].min(self.rows.end) - t.min[1].max(self.rows.start);
-        (t.max[0].min(self.width as i32) - t.min[0].max(0)) * rows.max(0) >= 512
+        let rows = t.max()[1].min(self.rows.end) - t.min()[1].max(self.rows.start);
+        (t.max()[0].min(self.width as i32) - t.min()[0].max(0)) * rows.max(0) >= 512
     }
 
     /// Depth, shade, output: a triangle's fragments.
@@ -223,21 +223,17 @@ impl<F: PixelFormat> Target<'_, F> {
         let constant =
             F::encode(if S::CONSTANT { shader.colour(&shader.at(0, 0)) } else { [0; 3] });
         let z = depth::biased(z);
-        for Run { y, x0, x1 } in self.runs(t, columns) {
-            if x0 >= x1 {
-                continue;
-            }
+        self.runs(t, columns).for_each(|Run { y, x0, x1 }| {
             if !S::IN_BLOCKS {
-                self.fill_block::<S, DITHER>(&z, shader, constant, y, x0..x1);
-                continue;
+                return self.fill_block::<S, DITHER>(&z, shader, constant, y, x0..x1);
             }
             let mut first = x0;
             while first < x1 {
-                let end = x1.min(first + shader.longest());
+                let end = x1.min(first + shader.longest() as usize);
                 self.fill_block::<S, DITHER>(&z, shader, constant, y, first..end);
                 first = end;
             }
-        }
+        });
     }
 
     /// Fragments side by side in row `y`; `constant` where they have one colour.
@@ -247,13 +243,12 @@ impl<F: PixelFormat> Target<'_, F> {
         z: &Plane,
         shader: &S,
         constant: F::Pixel,
-        y: i32,
-        columns: Range<i32>,
+        row: usize,
+        columns: Range<usize>,
     ) {
-        let first = columns.start;
-        let (mut value, mut pixel) = (z.at(first, y), shader.begin(first, y, columns.end - first));
-        let place = (self.width, (y - self.rows.start) as usize);
-        let columns = first as usize..columns.end as usize;
+        let (first, y) = (columns.start as i32, row as i32);
+        let (mut value, mut pixel) = (z.at(first, y), shader.begin(first, y, columns.len() as i32));
+        let place = (self.width, row - self.rows.start as usize);
         F::visit(self.colour, self.depth, place, columns, |i, stored| {
             let colour = depth::test(stored, depth::whole(value)).then(|| {
                 if DITHER {
@@ -275,8 +270,8 @@ impl<F: PixelFormat> Target<'_, F> {
     fn fill_strips<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
         let (width, rows) = (self.width, self.rows.clone());
         let Some(colours) = F::rgb565(self.colour) else { return };
-        let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
-        let (first, last) = (t.min[0].max(0), t.max[0].min(width as i32));
+        let (top, bottom) = (t.min()[1].max(rows.start), t.max()[1].min(rows.end));
+        let (first, last) = (t.min()[0].max(0), t.max()[0].min(width as i32));
         let (z_ramp, ramps) = (U32x8::ramp(0x8000, z.gx), shader.ramps());
         let all = t.edges();
         let mut left = first;
@@ -309,18 +304,19 @@ impl<F: PixelFormat> Target<'_, F> {
     /// [`fill_runs`](Self::fill_runs) eight pixels at a time where the row has room for them, RGB565 only.
     #[inline(never)]
     fn fill_side_by_side<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
-        let (top, width) = (self.rows.start, self.width);
+        let (top, width) = (self.rows.start as usize, self.width);
         let runs = self.runs(t, 0..width as i32);
         let Some(colours) = F::rgb565(self.colour) else { return };
         let (z_ramp, ramps) = (U32x8::ramp(0x8000, z.gx), shader.ramps());
-        for run in runs.filter(|run| run.x0 < run.x1) {
-            let row = (run.y - top) as usize * width;
-            let here = row + run.x0 as usize..row + width;
+        runs.for_each(|run| {
+            let row = (run.y - top) * width;
+            let here = row + run.x0..row + width;
             let (eights, rest) = colours[here.clone()].as_chunks_mut::<LANES>();
             let (depth_eights, depth_rest) = self.depth[here].as_chunks_mut::<LANES>();
-            let mut value = z.at(run.x0, run.y);
-            let mut pixel = shader.at(run.x0, run.y);
-            let mut left = (run.x1 - run.x0) as usize;
+            let (x, y) = (run.x0 as i32, run.y as i32);
+            let mut value = z.at(x, y);
+            let mut pixel = shader.at(x, y);
+            let mut left = run.x1 - run.x0;
             for (eight, stored) in eights.iter_mut().zip(depth_eights) {
                 let old = U16x8::load(stored);
                 let new = U32x8::splat(value).add(z_ramp).high();
@@ -342,7 +338,7 @@ impl<F: PixelFormat> Target<'_, F> {
                 value = value.wrapping_add(z.gx);
                 pixel = shader.step(pixel, 1);
             }
-        }
+        });
     }
 
     /// Depth only, pushed back so that the triangle's own edges stay visible: by its steepest slope a
@@ -350,16 +346,17 @@ impl<F: PixelFormat> Target<'_, F> {
     pub(super) fn mask(&mut self, t: &Triangle, z: &Plane) {
         let slope = (z.gx as i32).unsigned_abs().max((z.gy as i32).unsigned_abs());
         let bias = slope.min(2048 << 16) + (2 << 16);
-        for run in self.runs(t, 0..self.width as i32).filter(|run| run.x0 < run.x1) {
-            let (_, depths) = self.row(run.y);
-            let mut value = z.at(run.x0, run.y);
-            for stored in &mut depths[run.x0 as usize..run.x1 as usize] {
+        self.runs(t, 0..self.width as i32).for_each(|run| {
+            let (x, y) = (run.x0 as i32, run.y as i32);
+            let (_, depths) = self.row(y);
+            let mut value = z.at(x, y);
+            for stored in &mut depths[run.x0..run.x1] {
                 // Rounding may leave a value just below 0, which wraps to the top.
                 let pushed = value.wrapping_add(0x8000).saturating_add(bias) >> 16;
                 depth::test(stored, pushed as u16);
                 value = value.wrapping_add(z.gx);
             }
-        }
+        });
     }
 
     /// Edges of one colour without depth, the quick way; false where the format or dither forbids it.

@@ -64,20 +64,22 @@ fn narrow_floor(n: i64, d: i64) -> i64 {
     quotient as i64 ^ sign
 }
 
-/// `n 2^32 / d` without what is behind the point, for |n| below 2^31 and `d` not 0, |d| below 2^16.
+/// `n 2^32 / d` without what is behind the point, for `d` from 1 below 2^16 and |n| below 2^31.
 #[inline(always)]
-pub(crate) fn fraction(n: i64, d: i64) -> i64 {
-    if NARROW { narrow_fraction(n as i32, d as i32) } else { (n << 32) / d }
+pub(crate) fn fraction(n: i32, d: u32) -> i64 {
+    // So that no check remains.
+    let d = d | (d == 0) as u32;
+    if NARROW { narrow_fraction(n, d) } else { ((n as i64) << 32) / d as i64 }
 }
 
 #[inline(never)]
-fn narrow_fraction(n: i32, d: i32) -> i64 {
-    let (size, by) = (n.unsigned_abs(), d.unsigned_abs());
-    let (whole, rest) = (size / by, size % by);
-    let (high, rest) = ((rest << 16) / by, (rest << 16) % by);
-    let low = (rest << 16) / by;
+fn narrow_fraction(n: i32, d: u32) -> i64 {
+    let size = n.unsigned_abs();
+    let (whole, rest) = (size / d, size % d);
+    let (high, rest) = ((rest << 16) / d, (rest << 16) % d);
+    let low = (rest << 16) / d;
     let quotient = (((whole as u64) << 32) | ((high << 16) | low) as u64) as i64;
-    if (n ^ d) < 0 { -quotient } else { quotient }
+    if n < 0 { -quotient } else { quotient }
 }
 
 #[cfg(test)]
@@ -104,10 +106,9 @@ mod tests {
             let d = ((random.i32() as u32 >> (i % 31)) as i64).max(1);
             assert_eq!(narrow_floor(n, d), n.div_euclid(d), "{n} {d}");
             assert_eq!(floor(n, d), n.div_euclid(d), "{n} {d}");
-            let (n, d) =
-                (n as i32 >> 1, (d as i32 & 0xffff).max(1) * if i & 1 == 0 { 1 } else { -1 });
+            let (n, d) = (n as i32 >> 1, (d as u32 & 0xffff).max(1));
             assert_eq!(narrow_fraction(n, d), ((n as i64) << 32) / d as i64, "{n} {d}");
-            assert_eq!(fraction(n as i64, d as i64), ((n as i64) << 32) / d as i64, "{n} {d}");
+            assert_eq!(fraction(n, d), ((n as i64) << 32) / d as i64, "{n} {d}");
         }
     }
 }

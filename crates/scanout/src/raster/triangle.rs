@@ -1,78 +1,93 @@
-//! Triangles to pixels: two traversals of the same exact edge functions.
+//! Triangles to pixels: two traversals of the same exact edges.
 //!
-//! [`Runs::spans`] solves each row's ends. The edge `a x + b y + k >= 0` crosses row y at `X(y) = -(b y + k) / a`:
+//! [`Runs::spans`] solves each row's ends. With the corners sorted from the top, the rows between two of them lie between the same two
+//! edges: a slab.
 //!
 //! ```text
-//!   a > 0 (left edge):   x >= X(y)             first column = max of ceil(X) over left edges
-//!   a < 0 (right edge):  x <= X(y)             last column  = min of floor(X) over right edges
-//!   a = 0:               decided by the box
+//!      top  .            An edge that begins at (x0, y0), in 1/16 pixel, crosses the centres of row y at
+//!          / \  slab
+//!         /   . middle      X(y) = (x0 - 8) / 16 + (16 y + 8 - y0) / 16 * dx / dy
+//!        / .     slab
+//!  low  .                and the row's run is, by the top-left rule, from ceil(X) of the left edge up to ceil(X) of the right.
 //! ```
 //!
-//! `X` is carried from row to row exactly, so a band may begin at any row. [`Runs::tested`] tests the edges at every pixel, [`tiles`]
-//! column after column. Both give the same pixels; `rows` and `width` only cut.
+//! [`Runs::tested`] tests the edges at every pixel, [`tiles`] column after column. Both give the same pixels; `rows` and `width` only
+//! cut.
 //!
-//! Cost of a row: three additions and five comparisons; six divisions a triangle.
+//! Cost of a row: two additions and two comparisons; at most three divisions a triangle.
 
 use crate::math::{NO_DIVISION, fraction};
-use crate::setup::{Edge, Triangle};
+use crate::setup::{Triangle, first_pixel};
 use core::ops::Range;
 
 /// A run of covered pixels in one row: columns `x0..x1`; none where `x0 >= x1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Run {
     /// Row.
-    pub y: i32,
+    pub y: usize,
     /// First column.
-    pub x0: i32,
+    pub x0: usize,
     /// One past the last column.
-    pub x1: i32,
+    pub x1: usize,
 }
 
-/// Where an edge of a [`small`](Triangle::small) triangle crosses a row, `-(b y + k) / a`, from row to row, with 32 fraction bits.
+/// Where an edge crosses a row, with 32 fraction bits, and how much further right the next; a little less than one is added, so that the
+/// whole part is rounded upwards.
 ///
-/// Over at most 2^12 rows quotients that were cut off stray by less than 2^-19, so with a bias of 2^-18 the sum lies to the wanted
-/// side of the true place by at most 2^-17; and a place that is not a pixel's stays at least `1 / |a| >= 2^-16` away from the
-/// next. So what is rounded is exact.
-#[derive(Clone, Copy)]
-struct Crossing {
+/// Edges at most [`STEEPEST`] high cross a row on a whole pixel or at least `1 / (16 dy) >= 2^-19` away from it. Their step is cut off
+/// to 32 bits and added in at most 2^11 rows, so what is here strays by less than 2^-21 + 2^-32; with `1 - 2^-20` added the
+/// whole part is exact.
+#[derive(Clone, Copy, Default)]
+struct Side {
     x: i64,
     step: i64,
-    /// The covered pixels lie to the right.
-    left: bool,
 }
 
-impl Crossing {
+/// The greatest height, in 1/16 pixel, of a triangle whose ends are solved.
+const STEEPEST: i32 = 1 << 15;
+
+impl Side {
+    /// Of an edge down to another corner, at a row between both.
     #[inline(always)]
-    fn new(edge: &Edge, y: i32) -> Self {
-        const BIAS: i64 = 1 << 14;
-        // What a horizontal edge gives is not used.
-        let (d, left) = (edge.a + (edge.a == 0) as i64, edge.a > 0);
-        let n = edge.b * y as i64 + edge.k;
-        // The whole part of the sum is the first column of the run, or the one past the last.
-        let round = if left { (1 << 32) - 1 - BIAS } else { (1 << 32) + BIAS };
-        Crossing { x: round - fraction(n, d), step: -fraction(edge.b, d), left }
+    fn new([x, y]: [i32; 2], to: [i32; 2], row: i32) -> Side {
+        const ALMOST_ONE: i64 = (1 << 32) - (1 << 12);
+        let step = fraction(to[0] - x, (to[1] - y) as u32);
+        let down = (16 * row + 8 - y) as i64;
+        Side { x: (((x - 8) as i64) << 28) + ((down * step) >> 4) + ALMOST_ONE, step }
     }
+}
+
+/// Rows between the same two edges.
+#[derive(Clone, Copy, Default)]
+struct Slab {
+    /// First row, one past the last.
+    rows: [usize; 2],
+    left: Side,
+    right: Side,
 }
 
 /// The runs of a triangle, one for each row from the top.
 pub struct Runs<'t> {
     triangle: &'t Triangle,
-    /// Of the edge that is alone on its side, then of the two of the other side.
-    crossings: [Crossing; 3],
-    steps: Steps,
-    way: Way,
-    /// The next row.
-    y: i32,
-    bottom: i32,
-    left: i32,
-    right: i32,
+    slabs: [Slab; 2],
+    /// How many slabs there are.
+    count: usize,
+    /// Columns that are asked for.
+    columns: [i32; 2],
+    /// What follows after the slabs, row by row.
+    rest: Option<Rest>,
 }
 
-/// How a row's ends are found.
+/// Rows whose ends are found one by one.
+struct Rest {
+    way: Way,
+    rows: Range<i32>,
+    steps: Steps,
+}
+
+/// How a row's ends are found where they aren't solved.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
-    /// By crossings that go from row to row.
-    Solved,
     /// By divisions.
     Divided,
     /// By a test at every pixel.
@@ -124,22 +139,57 @@ const SIDE: i32 = 8;
 
 /// The columns of the tiles that a triangle touches, from the left, between columns 0 and `width`.
 pub fn tiles(t: &Triangle, width: i32) -> impl Iterator<Item = Range<i32>> + use<> {
-    let (first, end) = (t.min[0].max(0), t.max[0].min(width));
+    let (first, end) = (t.min()[0].max(0), t.max()[0].min(width));
     let columns = (first & !(SIDE - 1)..end).step_by(SIDE as usize);
     columns.map(move |left| left.max(first)..end.min(left + SIDE))
 }
 
 impl<'t> Runs<'t> {
-    /// By crossings of the edges; only `rows` and `columns`.
-    #[inline(always)]
+    /// By the edges' places; only `rows` and `columns`.
+    #[inline(never)]
     pub fn spans(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>) -> Runs<'t> {
-        Runs::new(t, rows, columns, if t.small { Way::Solved } else { Way::Divided })
+        let columns = [columns.start, columns.end];
+        let ([a, b, c], mut turned) = (t.corners, t.turned);
+        let mut sort = |[a, b]: [[i32; 2]; 2]| {
+            let swap = b[1] < a[1];
+            turned ^= swap;
+            if swap { [b, a] } else { [a, b] }
+        };
+        let [a, b] = sort([a, b]);
+        let [b, c] = sort([b, c]);
+        let [a, b] = sort([a, b]);
+        let (first, end) = (first_pixel(a[1]).max(rows.start), first_pixel(c[1]).min(rows.end));
+        let mut runs =
+            Runs { triangle: t, slabs: [Slab::default(); 2], count: 0, columns, rest: None };
+        if first >= end {
+            return runs;
+        }
+        if !t.small || c[1] - a[1] > STEEPEST {
+            return Runs::row_by_row(t, rows, columns, Way::Divided);
+        }
+        if NO_DIVISION && t.has_few(FEW) {
+            return Runs::row_by_row(t, rows, columns, Way::Stepped);
+        }
+        let turn = first_pixel(b[1]).clamp(first, end);
+        let mut long = Side::new(a, c, first);
+        let mut slab = |from, to, first: i32, end: i32| {
+            if first < end {
+                let short = Side::new(from, to, first);
+                let [left, right] = if turned { [short, long] } else { [long, short] };
+                long.x += long.step * (end - first) as i64;
+                let rows = [first as usize, end as usize];
+                runs.slabs[runs.count & 1] = Slab { rows, left, right };
+                runs.count += 1;
+            }
+        };
+        slab(a, b, first, turn);
+        slab(b, c, turn, end);
+        runs
     }
 
     /// The same by a test at every pixel.
-    #[inline(always)]
     pub fn tested(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>) -> Runs<'t> {
-        Runs::new(t, rows, columns, Way::Tested)
+        Runs::row_by_row(t, rows, [columns.start, columns.end], Way::Tested)
     }
 
     /// One or the other.
@@ -150,43 +200,64 @@ impl<'t> Runs<'t> {
         columns: Range<i32>,
         tested: bool,
     ) -> Runs<'t> {
-        let spans = if t.small { Way::Solved } else { Way::Divided };
-        Runs::new(t, rows, columns, if tested { Way::Tested } else { spans })
+        if tested { Runs::tested(t, rows, columns) } else { Runs::spans(t, rows, columns) }
     }
 
-    #[inline(always)]
-    fn new(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>, mut way: Way) -> Runs<'t> {
-        let (top, bottom) = (t.min[1].max(rows.start), t.max[1].min(rows.end));
-        let (left, right) = (t.min[0].max(columns.start), t.max[0].min(columns.end));
-        if NO_DIVISION && way == Way::Solved && t.has_few(FEW) {
-            way = Way::Stepped;
-        }
+    #[inline(never)]
+    fn row_by_row(t: &'t Triangle, rows: Range<i32>, columns: [i32; 2], way: Way) -> Runs<'t> {
+        let (min, max) = (t.min(), t.max());
+        let (first, end) = (min[1].max(rows.start), max[1].min(rows.end));
+        let columns = [columns[0].max(min[0]), columns[1].min(max[0])];
         let mut steps = Steps::default();
-        if way == Way::Stepped && left < right && top < bottom {
-            steps = Steps::new(t, left, top);
+        if way == Way::Stepped {
+            steps = Steps::new(t, columns[0], first);
         }
-        let mut crossings = [Crossing { x: 0, step: 0, left: false }; 3];
-        if way == Way::Solved {
-            let [e, f, g] = t.edges();
-            let all = [Crossing::new(&e, top), Crossing::new(&f, top), Crossing::new(&g, top)];
-            // A triangle with area has a left and a right edge and, unless one is horizontal, a second on one side.
-            let order: [usize; 3] = if e.a == 0 {
-                [1, 2, 2]
-            } else if f.a == 0 {
-                [2, 0, 0]
-            } else if g.a == 0 {
-                [0, 1, 1]
-            } else if (f.a ^ g.a) >= 0 {
-                [0, 1, 2]
-            } else if (e.a ^ g.a) >= 0 {
-                [1, 2, 0]
-            } else {
-                [2, 0, 1]
-            };
-            crossings = [all[order[0]], all[order[1]], all[order[2]]];
+        let rows = if columns[0] < columns[1] { first..end } else { 0..0 };
+        let rest = Some(Rest { way, rows, steps });
+        Runs { triangle: t, slabs: [Slab::default(); 2], count: 0, columns, rest }
+    }
+
+    /// The next of the rows whose ends are found one by one becomes a slab.
+    #[inline(never)]
+    fn next_row(&mut self) -> bool {
+        let Some(rest) = &mut self.rest else { return false };
+        let Some(y) = rest.rows.next() else { return false };
+        let [x0, x1] = self.columns;
+        let ends = if rest.way == Way::Stepped {
+            rest.steps.next(x0, x1)
+        } else {
+            ends(self.triangle, y, [x0, x1], rest.way)
+        };
+        let [left, right] = ends.map(|x| Side { x: (x as i64) << 32, step: 0 });
+        self.slabs[0] = Slab { rows: [y as usize, y as usize + 1], left, right };
+        self.count = 1;
+        true
+    }
+
+    /// Gives each run to `draw`.
+    #[inline(always)]
+    pub fn for_each(mut self, mut draw: impl FnMut(Run)) {
+        let [first, end] = self.columns.map(|x| x as isize);
+        let mut next = 0;
+        loop {
+            while next < self.count {
+                // Written so that the compiler doesn't write what follows twice.
+                let Slab { rows, mut left, mut right } = self.slabs[next & 1];
+                next += 1;
+                for y in rows[0]..rows[1] {
+                    let x0 = ((left.x >> 32) as isize).max(first);
+                    let x1 = ((right.x >> 32) as isize).min(end);
+                    (left.x, right.x) = (left.x + left.step, right.x + right.step);
+                    if x0 < x1 {
+                        draw(Run { y, x0: x0 as usize, x1: x1 as usize });
+                    }
+                }
+            }
+            if self.rest.is_none() || !self.next_row() {
+                return;
+            }
+            next = 0;
         }
-        let bottom = if left < right { bottom } else { top };
-        Runs { triangle: t, crossings, steps, way, y: top, bottom, left, right }
     }
 }
 
@@ -208,37 +279,6 @@ fn ends(t: &Triangle, y: i32, [mut x0, mut x1]: [i32; 2], way: Way) -> [i32; 2] 
     [x0, x1]
 }
 
-impl Iterator for Runs<'_> {
-    type Item = Run;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Run> {
-        if self.y >= self.bottom {
-            return None;
-        }
-        let y = self.y;
-        let [x0, x1] = if self.way == Way::Solved {
-            let [lone, first, second] = &mut self.crossings;
-            let one = (lone.x >> 32) as i32;
-            let [x0, x1] = if lone.left {
-                [one, (first.x.min(second.x) >> 32) as i32]
-            } else {
-                [(first.x.max(second.x) >> 32) as i32, one]
-            };
-            for crossing in [lone, first, second] {
-                crossing.x += crossing.step;
-            }
-            [x0.max(self.left), x1.min(self.right)]
-        } else if self.way == Way::Stepped {
-            self.steps.next(self.left, self.right)
-        } else {
-            ends(self.triangle, y, [self.left, self.right], self.way)
-        };
-        self.y = y + 1;
-        Some(Run { y, x0, x1 })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -248,20 +288,28 @@ mod tests {
     use std::vec::Vec;
 
     type Traversal = fn(&Triangle, Range<i32>, i32) -> Vec<Run>;
-    const SPANS: Traversal = |t, rows, width| Runs::spans(t, rows, 0..width).collect();
+    const SPANS: Traversal = |t, rows, width| collect(Runs::spans(t, rows, 0..width));
     const STEPS: Traversal = |t, rows, width| {
         let way = if t.has_few(FEW) { Way::Stepped } else { Way::Tested };
-        Runs::new(t, rows, 0..width, way).collect()
+        collect(Runs::row_by_row(t, rows, [0, width], way))
     };
     const TILES: Traversal = |t, rows, width| {
-        tiles(t, width).flat_map(|columns| Runs::tested(t, rows.clone(), columns)).collect()
+        tiles(t, width)
+            .flat_map(|columns| collect(Runs::tested(t, rows.clone(), columns)))
+            .collect()
     };
+
+    fn collect(runs: Runs) -> Vec<Run> {
+        let mut all = vec![];
+        runs.for_each(|run| all.push(run));
+        all
+    }
 
     fn count(v: [[i32; 2]; 3], size: i32, traverse: Traversal) -> Vec<u8> {
         let mut pixels = vec![0u8; (size * size) as usize];
         if let Some(t) = Triangle::new(v) {
             for run in traverse(&t, 0..size, size) {
-                (run.x0..run.x1).for_each(|x| pixels[(run.y * size + x) as usize] += 1)
+                (run.x0..run.x1).for_each(|x| pixels[run.y * size as usize + x] += 1)
             }
         }
         pixels

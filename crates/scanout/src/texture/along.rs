@@ -215,9 +215,11 @@ mod tests {
             let q_plane = t.plane(q.map(|q| q << 8));
             let sides = [size.0, size.1].map(u32::from);
             let along = Along::new(&setup, &q_plane, q, sides, fits);
-            for y in t.min[1]..t.max[1] {
-                let Some(first) = (t.min[0]..t.max[0]).find(|&x| t.covers(x, y)) else { continue };
-                let end = (first..t.max[0]).find(|&x| !t.covers(x, y)).unwrap_or(t.max[0]);
+            for y in t.min()[1]..t.max()[1] {
+                let Some(first) = (t.min()[0]..t.max()[0]).find(|&x| t.covers(x, y)) else {
+                    continue;
+                };
+                let end = (first..t.max()[0]).find(|&x| !t.covers(x, y)).unwrap_or(t.max()[0]);
                 let mut block = Block::NONE;
                 let mut next = first;
                 for x in first..end {

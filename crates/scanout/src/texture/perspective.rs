@@ -428,8 +428,8 @@ mod tests {
             let q = q_of(case.w);
             let setup = TextureSetup::new(&t, &texture, case.uv, q);
             let q_plane = t.plane(q.map(|q| q << 8));
-            for y in (t.min[1]..t.max[1]).step_by(5) {
-                for x in (t.min[0]..t.max[0]).step_by(5).filter(|&x| t.covers(x, y)) {
+            for y in (t.min()[1]..t.max()[1]).step_by(5) {
+                for x in (t.min()[0]..t.max()[0]).step_by(5).filter(|&x| t.covers(x, y)) {
                     let q = integer_q(q_plane.at(x, y));
                     let st = setup.perspective.st.map(|plane| plane.at(x, y));
                     let ([s, _], level) = (setup.locate(st, reciprocal(q)), setup.level(q));
