@@ -132,15 +132,24 @@ impl Viewport {
     /// Which planes of the view volume need the clip stage for this vertex.
     #[inline(always)]
     pub fn clip_flags(c: &[i32; 4]) -> u8 {
-        let guard = (c[3] as i64) << GUARD_BITS;
+        let [x, y, z, w] = c.map(i64::from);
+        let guard = w << GUARD_BITS;
+        // Most vertices need none: one test of all the signs tells.
+        let signs = z | (w - 1) | (w - z) | (guard - x) | (guard + x) | (guard - y) | (guard + y);
+        if signs >= 0 { 0 } else { Self::flags_outside(x, y, z, w) }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn flags_outside(x: i64, y: i64, z: i64, w: i64) -> u8 {
         let mut flags = 0;
-        if c[2] < 0 || c[3] <= 0 {
+        if z < 0 || w <= 0 {
             flags |= NEAR;
         }
-        if c[2] > c[3] {
+        if z > w {
             flags |= FAR;
         }
-        if (c[0].unsigned_abs().max(c[1].unsigned_abs()) as i64) > guard {
+        if x.abs().max(y.abs()) > w << GUARD_BITS {
             flags |= GUARD;
         }
         flags
@@ -163,10 +172,11 @@ impl Viewport {
         let lz = w.leading_zeros();
         let r = recip32(w << lz);
         let ratio = |v: i32| (v as i64 * r as i64) >> 31;
-        let (shift, half) = (32 - lz, 1i64 << (31 - lz));
-        let x = self.half[0] + ((ratio(c[0]) * self.half[0] + half) >> shift);
-        let y = self.half[1] - ((ratio(c[1]) * self.half[1] + half) >> shift);
-        let z = (((ratio(c[2]) as u64 * 65535) << 16) >> shift) as u32;
+        // Ratios are below 2^(45 - lz) in size, so nothing is lost on the left.
+        let places = |v: i32, half: i64| (((ratio(v) * half) << lz) + (1 << 31)) >> 32;
+        let x = self.half[0] + places(c[0], self.half[0]);
+        let y = self.half[1] - places(c[1], self.half[1]);
+        let z = (((ratio(c[2]) as u64 * 65535) << 16) >> (32 - lz)) as u32;
         Vertex {
             x: x as i32,
             y: y as i32,

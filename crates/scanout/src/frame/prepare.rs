@@ -327,13 +327,14 @@ impl ObjectPass<'_> {
     /// Transform: positions to screen vertices.
     fn transform(&self, positions: Range<usize>, vertices: &mut [Vertex]) {
         let mesh = self.object.mesh;
-        let rgb = self.object.material.colour;
+        let rgb = &self.object.material.colour;
         let some = &mesh.positions[positions.clone()];
         if let Some(avx2) = self.avx2 {
-            avx2.project(&self.viewport, self.clip, some, rgb, vertices);
+            avx2.project(&self.viewport, self.clip, some, *rgb, vertices);
         } else {
             for (vertex, &position) in vertices.iter_mut().zip(some) {
-                *vertex = Vertex { rgb, ..self.viewport.project(&self.clip.apply(position)) };
+                *vertex = self.viewport.project(&self.clip.apply(position));
+                vertex.rgb = *rgb;
             }
         }
         if !features::VERTEX_COLOURS || mesh.colours.is_empty() {
@@ -449,46 +450,45 @@ impl ObjectPass<'_> {
         let one_sided = self.one_sided();
         let mut triangles = range.clone().zip(&self.object.mesh.triangles[range.clone()]);
         let mut kept = 0;
-        while let Some(found) = next_facing(&mut triangles, marked.vertices(), one_sided) {
-            let Ok(Found { index, triangle, corners, area, flags }) = found else {
-                let element = range.end - triangles.len() - 1;
-                return Err(PrepareError::Index { object: self.index, element });
-            };
+        while let Some((index, &triangle, found)) =
+            next_facing(&mut triangles, marked.vertices(), one_sided)
+        {
             kept += 1;
-            if (flags[0] | flags[1] | flags[2]) & CLIP != 0 {
-                let all = flags[0] & flags[1] & flags[2];
-                self.keep_clipped(index, all, kind, lighting, list);
-                marked.keep(triangle);
-                continue;
-            }
-            let [a, b, c] = corners;
-            let low = [0, 1].map(|i: usize| a[i].min(b[i]).min(c[i]));
-            let high = [0, 1].map(|i: usize| a[i].max(b[i]).max(c[i]));
-            match self.rows(low, high) {
-                Some(rows) => {
-                    self.keep(index, kind as u8, rows, facing(area), lighting, list);
-                    marked.keep(triangle);
+            match found {
+                Found::Unclipped([a, b, c], facing) => {
+                    let low = [0, 1].map(|i: usize| a[i].min(b[i]).min(c[i]));
+                    let high = [0, 1].map(|i: usize| a[i].max(b[i]).max(c[i]));
+                    let Some(rows) = self.rows(low, high) else {
+                        list.stats.outside += 1;
+                        continue;
+                    };
+                    self.keep(index, kind as u8, rows, facing, lighting, list);
                 }
-                None => list.stats.outside += 1,
+                Found::Clipped => self.keep_clipped(index, marked.vertices(), kind, lighting, list),
+                Found::NoVertex => {
+                    return Err(PrepareError::Index { object: self.index, element: index });
+                }
             }
+            marked.keep(triangle);
         }
         list.stats.back_facing += range.len() as u32 - kept;
         Ok(())
     }
 
-    /// The same tests for a triangle that the clip stage must cut; `all` are the flags that its corners share.
+    /// The same tests for a triangle that the clip stage must cut.
     #[inline(never)]
     fn keep_clipped(
         &self,
         index: usize,
-        all: u8,
+        vertices: &[Vertex],
         kind: Kind,
         lighting: &Lighting,
         list: &mut List,
     ) {
         let mesh = self.object.mesh;
         let triangle = mesh.triangles[index];
-        if all & (NEAR | FAR) != 0 {
+        let [a, b, c] = triangle.map(|i| vertices[i as usize].flags);
+        if a & b & c & (NEAR | FAR) != 0 {
             list.stats.outside += 1;
             return;
         }
@@ -584,34 +584,38 @@ impl ObjectPass<'_> {
     }
 }
 
-/// A triangle that faces the viewer, as it seems, or that the clip stage must cut.
-struct Found {
-    index: usize,
-    triangle: [u16; 3],
-    corners: [[i32; 2]; 3],
-    area: i64,
-    flags: [u8; 3],
+/// What a triangle that isn't dropped at first sight is.
+enum Found {
+    /// Its corners, Q28.4.
+    Unclipped([[i32; 2]; 3], Facing),
+    /// The clip stage must cut it.
+    Clipped,
+    /// One of its indices is of no vertex.
+    NoVertex,
 }
 
-/// The next such triangle, or an index that is none. Most triangles are dropped here, so this loop holds nothing but the test.
+/// The next of such triangles. Most are dropped here, so this loop holds nothing but the test.
 #[inline(always)]
 fn next_facing<'t>(
     triangles: &mut impl Iterator<Item = (usize, &'t [u16; 3])>,
     vertices: &[Vertex],
     one_sided: bool,
-) -> Option<Result<Found, ()>> {
-    triangles.find_map(|(index, &triangle)| {
-        let [a, b, c] = triangle.map(usize::from);
-        let (Some(a), Some(b), Some(c)) = (vertices.get(a), vertices.get(b), vertices.get(c))
-        else {
-            return Some(Err(()));
+) -> Option<(usize, &'t [u16; 3], Found)> {
+    for (index, triangle) in triangles {
+        let [a, b, c] = triangle.map(|i| vertices.get(i as usize));
+        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+            return Some((index, triangle, Found::NoVertex));
         };
+        if (a.flags | b.flags | c.flags) & CLIP != 0 {
+            return Some((index, triangle, Found::Clipped));
+        }
         let corners = [[a.x, a.y], [b.x, b.y], [c.x, c.y]];
-        let (area, flags) = (signed_area(&corners), [a.flags, b.flags, c.flags]);
-        let faces =
-            (flags[0] | flags[1] | flags[2]) & CLIP != 0 || !(area == 0 || (area > 0 && one_sided));
-        faces.then_some(Ok(Found { index, triangle, corners, area, flags }))
-    })
+        let facing = facing(signed_area(&corners));
+        if facing == Facing::Front || (facing == Facing::Back && !one_sided) {
+            return Some((index, triangle, Found::Unclipped(corners, facing)));
+        }
+    }
+    None
 }
 
 /// The lights as an object sees them.

@@ -52,34 +52,16 @@ fn by_digits(n: u64, d: u32) -> u64 {
 /// `floor(n / d)` for positive `d`.
 #[inline(always)]
 pub(crate) fn floor(n: i64, d: i64) -> i64 {
-    if NARROW { narrow_floor(n, d) } else { n / d + ((n % d) >> 63) }
-}
-
-#[inline(never)]
-fn narrow_floor(n: i64, d: i64) -> i64 {
     // floor(n / d) = -1 - floor((-1 - n) / d)
     let sign = n >> 63;
-    let size = (n ^ sign) as u64;
-    let quotient = if d < 1 << 16 { by_digits(size, d as u32) } else { size / d as u64 };
-    quotient as i64 ^ sign
-}
-
-/// `n 2^32 / d` without what is behind the point, for `d` from 1 below 2^16 and |n| below 2^31.
-#[inline(always)]
-pub(crate) fn fraction(n: i32, d: u32) -> i64 {
-    // So that no check remains.
-    let d = d | (d == 0) as u32;
-    if NARROW { narrow_fraction(n, d) } else { ((n as i64) << 32) / d as i64 }
+    // With 1 instead of 0, which never comes, no check remains.
+    let (size, d) = ((n ^ sign) as u64, (d | (d == 0) as i64) as u64);
+    (if NARROW { narrow_quotient(size, d) } else { size / d }) as i64 ^ sign
 }
 
 #[inline(never)]
-fn narrow_fraction(n: i32, d: u32) -> i64 {
-    let size = n.unsigned_abs();
-    let (whole, rest) = (size / d, size % d);
-    let (high, rest) = ((rest << 16) / d, (rest << 16) % d);
-    let low = (rest << 16) / d;
-    let quotient = (((whole as u64) << 32) | ((high << 16) | low) as u64) as i64;
-    if n < 0 { -quotient } else { quotient }
+fn narrow_quotient(n: u64, d: u64) -> u64 {
+    if d < 1 << 16 { by_digits(n, d as u32) } else { n / d }
 }
 
 #[cfg(test)]
@@ -104,11 +86,8 @@ mod tests {
         for i in 0..200_000u32 {
             let n = ((random.i32() as i64) << 32 | random.i32() as u32 as i64) >> (i % 60);
             let d = ((random.i32() as u32 >> (i % 31)) as i64).max(1);
-            assert_eq!(narrow_floor(n, d), n.div_euclid(d), "{n} {d}");
+            assert_eq!(narrow_quotient(n as u64, d as u64), n as u64 / d as u64, "{n} {d}");
             assert_eq!(floor(n, d), n.div_euclid(d), "{n} {d}");
-            let (n, d) = (n as i32 >> 1, (d as u32 & 0xffff).max(1));
-            assert_eq!(narrow_fraction(n, d), ((n as i64) << 32) / d as i64, "{n} {d}");
-            assert_eq!(fraction(n, d), ((n as i64) << 32) / d as i64, "{n} {d}");
         }
     }
 }

@@ -29,7 +29,7 @@ mod trig;
 mod unit;
 mod vec;
 
-pub(crate) use division::{NARROW, NO_DIVISION, floor, fraction, reciprocal_by_seeds};
+pub(crate) use division::{NARROW, NO_DIVISION, floor, reciprocal_by_seeds};
 pub use fixed::Q16;
 pub use mat::Mat4;
 pub use quat::Quat;

@@ -16,7 +16,7 @@
 //!
 //! Cost of a row: two additions and two comparisons; at most three divisions a triangle.
 
-use crate::math::{NO_DIVISION, fraction};
+use crate::math::{NO_DIVISION, floor};
 use crate::setup::{Triangle, first_pixel};
 use core::ops::Range;
 
@@ -51,7 +51,7 @@ impl Side {
     #[inline(always)]
     fn new([x, y]: [i32; 2], to: [i32; 2], row: i32) -> Side {
         const ALMOST_ONE: i64 = (1 << 32) - (1 << 12);
-        let step = fraction(to[0] - x, (to[1] - y) as u32);
+        let step = floor(((to[0] - x) as i64) << 32, (to[1] - y) as u32 as i64);
         let down = (16 * row + 8 - y) as i64;
         Side { x: (((x - 8) as i64) << 28) + ((down * step) >> 4) + ALMOST_ONE, step }
     }

@@ -119,9 +119,9 @@ impl<'a> Frame<'a> {
         let rows = target.rows.clone();
         for primitive in run.iter().filter(|p| p.touches(&rows)) {
             let indices = source.triangles.get(primitive.index as usize);
-            let corners = indices.map(|t| t.map(|i| source.vertices.get(i as usize)));
+            let corner = |k: usize| source.vertices.get(indices?[k] as usize);
             if source.is_plain(primitive.tag)
-                && let Some([Some(a), Some(b), Some(c)]) = corners
+                && let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2))
             {
                 if let Some(t) = Triangle::new([[a.x, a.y], [b.x, b.y], [c.x, c.y]]) {
                     draw(target, &t, &[a, b, c], primitive);
