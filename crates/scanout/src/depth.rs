@@ -5,6 +5,7 @@
 //! first drawn stays. What it will not do: a linear-in-distance buffer.
 
 use crate::interpolate::Plane;
+use crate::math::seldom;
 
 /// What the depth memory holds where nothing has been drawn.
 pub const FAR: u16 = 0xffff;
@@ -41,11 +42,6 @@ pub fn test(stored: &mut u16, depth: u16) -> bool {
     }
     pass
 }
-
-/// Tells the compiler which way is the rarer one.
-#[cold]
-#[inline(always)]
-fn seldom() {}
 
 #[cfg(test)]
 mod tests {

@@ -63,15 +63,18 @@ pub trait PixelFormat: Copy + 'static {
     fn rgb565(_row: &mut [Self::Word]) -> Option<&mut [u16]> {
         None
     }
-    /// Visits the depths of some columns of a row of `colours` and `depths`, both `width` pixels wide, and stores the pixel where
-    /// the visitor returns one. The visitor's first argument counts from 0.
+    /// Walks along some columns of a row of `colours` and `depths`, both `width` pixels wide, with a state that `step` brings to the
+    /// next pixel: where `test` passes, the pixel becomes what `pixel` makes of the state and a number that counts from 0.
     #[inline(always)]
-    fn visit(
+    fn walk<S>(
         colours: &mut [Self::Word],
         depths: &mut [u16],
         (width, row): (usize, usize),
         columns: Range<usize>,
-        mut visitor: impl FnMut(usize, &mut u16) -> Option<Self::Pixel>,
+        mut state: S,
+        test: impl Fn(&S, &mut u16) -> bool,
+        pixel: impl Fn(&S, usize) -> Self::Pixel,
+        step: impl Fn(S) -> S,
     ) {
         let words = Self::words(width);
         let (Some(colours), Some(depths)) = (
@@ -81,9 +84,10 @@ pub trait PixelFormat: Copy + 'static {
             return;
         };
         for (i, depth) in depths.iter_mut().enumerate() {
-            if let Some(pixel) = visitor(i, depth) {
-                Self::store(colours, columns.start + i, pixel);
+            if test(&state, depth) {
+                Self::store(colours, columns.start + i, pixel(&state, i));
             }
+            state = step(state);
         }
     }
     /// Fills `width` pixels of a row.
@@ -135,21 +139,25 @@ macro_rules! a_word_is_a_pixel {
             Some(words)
         }
         #[inline(always)]
-        fn visit(
+        fn walk<S>(
             colours: &mut [$word],
             depths: &mut [u16],
             (width, row): (usize, usize),
             columns: Range<usize>,
-            mut visitor: impl FnMut(usize, &mut u16) -> Option<$word>,
+            mut state: S,
+            test: impl Fn(&S, &mut u16) -> bool,
+            pixel: impl Fn(&S, usize) -> $word,
+            step: impl Fn(S) -> S,
         ) {
             let place = row * width + columns.start..row * width + columns.end;
             if let (Some(colours), Some(depths)) =
                 (colours.get_mut(place.clone()), depths.get_mut(place))
             {
                 for (i, (colour, depth)) in colours.iter_mut().zip(depths).enumerate() {
-                    if let Some(pixel) = visitor(i, depth) {
-                        *colour = pixel;
+                    if test(&state, depth) {
+                        *colour = pixel(&state, i);
                     }
+                    state = step(state);
                     // Runs are short: keeps the compiler from unrolling.
                     core::hint::black_box(());
                 }

@@ -206,40 +206,40 @@ impl<S: Shader, T: Sampler> Textured<S, T> {
 
 impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
     /// The inner shader's, 1/w, s/w and t/w.
-    type Pixel = (S::Pixel, u32, [u32; 2]);
+    type Pixel = (S::Pixel, u32, u32, u32);
     type Ramps = (S::Ramps, [U32x8; 3]);
     const SIDE_BY_SIDE: bool = S::SIDE_BY_SIDE && T::RGB565;
 
     #[inline(always)]
     fn at(&self, x: i32, y: i32) -> Self::Pixel {
         let [s, t] = &T::perspective(&self.setup).st;
-        (self.inner.at(x, y), self.q.at(x, y), [s.at(x, y), t.at(x, y)])
+        (self.inner.at(x, y), self.q.at(x, y), s.at(x, y), t.at(x, y))
     }
     #[inline(always)]
-    fn step(&self, (inner, q, [s, t]): Self::Pixel, count: u32) -> Self::Pixel {
-        let planes = &T::perspective(&self.setup).st;
-        let st = [step(&planes[0], s, count), step(&planes[1], t, count)];
-        (self.inner.step(inner, count), step(&self.q, q, count), st)
+    fn step(&self, (inner, q, s, t): Self::Pixel, count: u32) -> Self::Pixel {
+        let [ds, dt] = &T::perspective(&self.setup).st;
+        let inner = self.inner.step(inner, count);
+        (inner, step(&self.q, q, count), step(ds, s, count), step(dt, t, count))
     }
     #[inline(always)]
-    fn down(&self, (inner, q, [s, t]): Self::Pixel) -> Self::Pixel {
-        let planes = &T::perspective(&self.setup).st;
-        let st = [down(&planes[0], s), down(&planes[1], t)];
-        (self.inner.down(inner), down(&self.q, q), st)
+    fn down(&self, (inner, q, s, t): Self::Pixel) -> Self::Pixel {
+        let [ds, dt] = &T::perspective(&self.setup).st;
+        (self.inner.down(inner), down(&self.q, q), down(ds, s), down(dt, t))
     }
     #[inline(always)]
-    fn colour(&self, (inner, q, st): &Self::Pixel) -> [u8; 3] {
+    fn colour(&self, (inner, q, s, t): &Self::Pixel) -> [u8; 3] {
         let q = integer_q(*q);
-        modulate(self.sampler.texel(&self.setup, *st, q, reciprocal(q)), self.inner.colour(inner))
+        let texel = self.sampler.texel(&self.setup, [*s, *t], q, reciprocal(q));
+        modulate(texel, self.inner.colour(inner))
     }
     #[inline(always)]
-    fn encoded<F: PixelFormat>(&self, (inner, q, st): &Self::Pixel) -> F::Pixel {
+    fn encoded<F: PixelFormat>(&self, (inner, q, s, t): &Self::Pixel) -> F::Pixel {
         let q = integer_q(*q);
         if T::RGB565 {
-            let texel = self.sampler.texel565(&self.setup, *st, reciprocal(q));
+            let texel = self.sampler.texel565(&self.setup, [*s, *t], reciprocal(q));
             self.inner.tint::<F>(inner, texel)
         } else {
-            let texel = self.sampler.texel(&self.setup, *st, q, reciprocal(q));
+            let texel = self.sampler.texel(&self.setup, [*s, *t], q, reciprocal(q));
             F::encode(modulate(texel, self.inner.colour(inner)))
         }
     }
@@ -251,7 +251,7 @@ impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
     #[inline(always)]
     fn side_by_side(&self, ramps: &Self::Ramps, pixel: &Self::Pixel, pass: u32) -> [U16x8; 3] {
         let (ramps, own) = ramps;
-        let (inner, q, [s, t]) = *pixel;
+        let (inner, q, s, t) = *pixel;
         let lanes = |value: u32, ramp: U32x8| U32x8::splat(value).add(ramp).to_array();
         let (q, s, t) = (lanes(q, own[0]), lanes(s, own[1]), lanes(t, own[2]));
         let mut texels = [0; LANES];

@@ -247,22 +247,26 @@ impl<F: PixelFormat> Target<'_, F> {
         columns: Range<usize>,
     ) {
         let (first, y) = (columns.start as i32, row as i32);
-        let (mut value, mut pixel) = (z.at(first, y), shader.begin(first, y, columns.len() as i32));
+        let state = (z.at(first, y), shader.begin(first, y, columns.len() as i32));
         let place = (self.width, row - self.rows.start as usize);
-        F::visit(self.colour, self.depth, place, columns, |i, stored| {
-            let colour = depth::test(stored, depth::whole(value)).then(|| {
+        F::walk(
+            self.colour,
+            self.depth,
+            place,
+            columns,
+            state,
+            |(value, _), stored| depth::test(stored, depth::whole(*value)),
+            |(_, pixel), i| {
                 if DITHER {
-                    F::encode_dithered(shader.colour(&pixel), first + i as i32, y)
+                    F::encode_dithered(shader.colour(pixel), first + i as i32, y)
                 } else if S::CONSTANT {
                     constant
                 } else {
-                    shader.encoded::<F>(&pixel)
+                    shader.encoded::<F>(pixel)
                 }
-            });
-            value = value.wrapping_add(z.gx);
-            pixel = shader.step(pixel, 1);
-            colour
-        });
+            },
+            |(value, pixel)| (value.wrapping_add(z.gx), shader.step(pixel, 1)),
+        );
     }
 
     /// A tiny triangle in strips of eight columns, RGB565 only: no spans, edges are tested at every pixel.

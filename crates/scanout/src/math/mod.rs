@@ -49,6 +49,11 @@ pub mod tables {
 pub(crate) use fixed::{add_product, div_by_large, div_nearest, q32_from_f64};
 pub(crate) use fixed::{saturate32, saturate64, shift_right_nearest};
 
+/// Tells the compiler which way of two is the rarer one.
+#[cold]
+#[inline(always)]
+pub(crate) fn seldom() {}
+
 #[cfg(test)]
 pub(crate) mod testing {
     //! A generator of test numbers (xorshift64*), the same numbers in every run.

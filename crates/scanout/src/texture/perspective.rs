@@ -6,7 +6,7 @@
 use super::{Filter, MAX_LEVELS, SUBTEXEL_BITS, Texels, Texture, Wrap};
 use crate::features;
 use crate::interpolate::Plane;
-use crate::math::{NARROW, NO_DIVISION, reciprocal_by_seeds};
+use crate::math::{NARROW, NO_DIVISION, reciprocal_by_seeds, seldom};
 use crate::output::widen565;
 use crate::setup::Triangle;
 
@@ -72,7 +72,12 @@ fn whole(product: u64, shift: u32) -> u64 {
 /// The integer part of the 1/w plane's value, at least 1.
 #[inline(always)]
 pub fn integer_q(plane_value: u32) -> u32 {
-    (plane_value >> 8).max(1)
+    let q = plane_value >> 8;
+    if q == 0 {
+        seldom();
+        return 1;
+    }
+    q
 }
 
 /// Distances in a texture of `size` from the whole repeats below the least texture coordinate, 1/4096 texel rounded to
@@ -225,15 +230,24 @@ impl<'a> Repeat565<'a> {
     /// A texel inside the texture.
     #[inline(always)]
     pub(crate) fn inside(&self, [x, y]: [u32; 2]) -> u16 {
-        let index = y as usize * self.size[0] as usize + x as usize;
-        self.texels.get(index).copied().unwrap_or(0)
+        self.stored(y as usize * self.size[0] as usize + x as usize)
     }
 
     /// The texel as it is stored, from the shifts of a [`Perspective`].
     #[inline(always)]
     pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
-        let index = texel_of_repeat(self.size, shift, st, r);
-        self.texels.get(index).copied().unwrap_or(0)
+        self.stored(texel_of_repeat(self.size, shift, st, r))
+    }
+
+    #[inline(always)]
+    fn stored(&self, index: usize) -> u16 {
+        match self.texels.get(index) {
+            Some(&texel) => texel,
+            None => {
+                seldom();
+                0
+            }
+        }
     }
 }
 
