@@ -309,7 +309,7 @@ impl<F: PixelFormat> Target<'_, F> {
     #[inline(never)]
     fn fill_side_by_side<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
         let (top, width) = (self.rows.start as usize, self.width);
-        let runs = self.runs(t, 0..width as i32);
+        let mut runs = self.runs(t, 0..width as i32);
         let Some(colours) = F::rgb565(self.colour) else { return };
         let (z_ramp, ramps) = (U32x8::ramp(0x8000, z.gx), shader.ramps());
         runs.for_each(|run| {

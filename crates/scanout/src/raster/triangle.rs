@@ -57,37 +57,31 @@ impl Side {
     }
 }
 
-/// Rows between the same two edges.
-#[derive(Clone, Copy, Default)]
-struct Slab {
-    /// First row, one past the last.
-    rows: [usize; 2],
-    left: Side,
-    right: Side,
-}
-
 /// The runs of a triangle, one for each row from the top.
 pub struct Runs<'t> {
     triangle: &'t Triangle,
-    slabs: [Slab; 2],
-    /// How many slabs there are.
-    count: usize,
+    way: Way,
     /// Columns that are asked for.
     columns: [i32; 2],
-    /// What follows after the slabs, row by row.
-    rest: Option<Rest>,
+    /// The first row of either slab, one past the last of the second.
+    rows: [usize; 3],
+    /// The edge from the top corner to the lowest, at the first row.
+    long: Side,
+    /// It is the left one.
+    long_left: bool,
+    /// The other edge of either slab, at the slab's first row.
+    short: [Side; 2],
+    /// Rows that follow.
+    rest: Range<i32>,
+    /// For [`Way::Stepped`].
+    steps: [Steps; NO_DIVISION as usize],
 }
 
-/// Rows whose ends are found one by one.
-struct Rest {
-    way: Way,
-    rows: Range<i32>,
-    steps: Steps,
-}
-
-/// How a row's ends are found where they aren't solved.
+/// How a row's ends are found.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
+    /// From the edges' places, which go from row to row.
+    Solved,
     /// By divisions.
     Divided,
     /// By a test at every pixel.
@@ -159,32 +153,28 @@ impl<'t> Runs<'t> {
         let [b, c] = sort([b, c]);
         let [a, b] = sort([a, b]);
         let (first, end) = (first_pixel(a[1]).max(rows.start), first_pixel(c[1]).min(rows.end));
-        let mut runs =
-            Runs { triangle: t, slabs: [Slab::default(); 2], count: 0, columns, rest: None };
-        if first >= end {
-            return runs;
-        }
         if !t.small || c[1] - a[1] > STEEPEST {
             return Runs::row_by_row(t, rows, columns, Way::Divided);
         }
         if NO_DIVISION && t.has_few(FEW) {
             return Runs::row_by_row(t, rows, columns, Way::Stepped);
         }
+        let end = end.max(first);
         let turn = first_pixel(b[1]).clamp(first, end);
-        let mut long = Side::new(a, c, first);
-        let mut slab = |from, to, first: i32, end: i32| {
-            if first < end {
-                let short = Side::new(from, to, first);
-                let [left, right] = if turned { [short, long] } else { [long, short] };
-                long.x += long.step * (end - first) as i64;
-                let rows = [first as usize, end as usize];
-                runs.slabs[runs.count & 1] = Slab { rows, left, right };
-                runs.count += 1;
-            }
+        let side = |from, to, first, end| {
+            if first < end { Side::new(from, to, first) } else { Side::default() }
         };
-        slab(a, b, first, turn);
-        slab(b, c, turn, end);
-        runs
+        Runs {
+            triangle: t,
+            way: Way::Solved,
+            columns,
+            rows: [first as usize, turn as usize, end as usize],
+            long: side(a, c, first, end),
+            long_left: !turned,
+            short: [side(a, b, first, turn), side(b, c, turn, end)],
+            rest: 0..0,
+            steps: [Steps::default(); NO_DIVISION as usize],
+        }
     }
 
     /// The same by a test at every pixel.
@@ -208,43 +198,47 @@ impl<'t> Runs<'t> {
         let (min, max) = (t.min(), t.max());
         let (first, end) = (min[1].max(rows.start), max[1].min(rows.end));
         let columns = [columns[0].max(min[0]), columns[1].min(max[0])];
-        let mut steps = Steps::default();
-        if way == Way::Stepped {
-            steps = Steps::new(t, columns[0], first);
+        let side = Side::default();
+        Runs {
+            triangle: t,
+            way,
+            columns,
+            rows: [0; 3],
+            long: side,
+            long_left: true,
+            short: [side; 2],
+            rest: if columns[0] < columns[1] { first..end } else { 0..0 },
+            steps: [(); NO_DIVISION as usize].map(|()| Steps::new(t, columns[0], first)),
         }
-        let rows = if columns[0] < columns[1] { first..end } else { 0..0 };
-        let rest = Some(Rest { way, rows, steps });
-        Runs { triangle: t, slabs: [Slab::default(); 2], count: 0, columns, rest }
     }
 
     /// The next of the rows whose ends are found one by one becomes a slab.
     #[inline(never)]
     fn next_row(&mut self) -> bool {
-        let Some(rest) = &mut self.rest else { return false };
-        let Some(y) = rest.rows.next() else { return false };
+        let Some(y) = self.rest.next() else { return false };
         let [x0, x1] = self.columns;
-        let ends = if rest.way == Way::Stepped {
-            rest.steps.next(x0, x1)
-        } else {
-            ends(self.triangle, y, [x0, x1], rest.way)
+        let ends = match (self.way, &mut self.steps[..]) {
+            (Way::Stepped, [steps]) => steps.next(x0, x1),
+            _ => ends(self.triangle, y, [x0, x1], self.way),
         };
         let [left, right] = ends.map(|x| Side { x: (x as i64) << 32, step: 0 });
-        self.slabs[0] = Slab { rows: [y as usize, y as usize + 1], left, right };
-        self.count = 1;
+        (self.long, self.short[0]) = (left, right);
+        self.rows = [y as usize, y as usize + 1, y as usize + 1];
         true
     }
 
     /// Gives each run to `draw`.
     #[inline(always)]
-    pub fn for_each(mut self, mut draw: impl FnMut(Run)) {
+    pub fn for_each(&mut self, mut draw: impl FnMut(Run)) {
         let [first, end] = self.columns.map(|x| x as isize);
-        let mut next = 0;
         loop {
-            while next < self.count {
-                // Written so that the compiler doesn't write what follows twice.
-                let Slab { rows, mut left, mut right } = self.slabs[next & 1];
-                next += 1;
-                for y in rows[0]..rows[1] {
+            let (mut long, mut slab) = (self.long, 0);
+            // Written so that the compiler doesn't write what follows twice.
+            while slab < self.rows.len() - 1 {
+                let short = self.short[slab & 1];
+                let [mut left, mut right] =
+                    if self.long_left { [long, short] } else { [short, long] };
+                for y in self.rows[slab & 1]..self.rows[(slab & 1) + 1] {
                     let x0 = ((left.x >> 32) as isize).max(first);
                     let x1 = ((right.x >> 32) as isize).min(end);
                     (left.x, right.x) = (left.x + left.step, right.x + right.step);
@@ -252,11 +246,12 @@ impl<'t> Runs<'t> {
                         draw(Run { y, x0: x0 as usize, x1: x1 as usize });
                     }
                 }
+                long = if self.long_left { left } else { right };
+                slab = core::hint::black_box(slab + 1);
             }
-            if self.rest.is_none() || !self.next_row() {
+            if self.way == Way::Solved || !self.next_row() {
                 return;
             }
-            next = 0;
         }
     }
 }
@@ -290,8 +285,18 @@ mod tests {
     type Traversal = fn(&Triangle, Range<i32>, i32) -> Vec<Run>;
     const SPANS: Traversal = |t, rows, width| collect(Runs::spans(t, rows, 0..width));
     const STEPS: Traversal = |t, rows, width| {
-        let way = if t.has_few(FEW) { Way::Stepped } else { Way::Tested };
-        collect(Runs::row_by_row(t, rows, [0, width], way))
+        let (min, max) = (t.min(), t.max());
+        let (left, right) = (min[0].max(0), max[0].min(width));
+        let (top, bottom) = (min[1].max(rows.start), max[1].min(rows.end));
+        if !t.has_few(FEW) || left >= right {
+            return SPANS(t, rows, width);
+        }
+        let mut steps = Steps::new(t, left, top);
+        let next = |y: i32| {
+            let [x0, x1] = steps.next(left, right).map(|x| x as usize);
+            Run { y: y as usize, x0, x1 }
+        };
+        (top..bottom).map(next).filter(|run| run.x0 < run.x1).collect()
     };
     const TILES: Traversal = |t, rows, width| {
         tiles(t, width)
@@ -299,7 +304,7 @@ mod tests {
             .collect()
     };
 
-    fn collect(runs: Runs) -> Vec<Run> {
+    fn collect(mut runs: Runs) -> Vec<Run> {
         let mut all = vec![];
         runs.for_each(|run| all.push(run));
         all
