@@ -149,6 +149,9 @@ macro_rules! a_word_is_a_pixel {
             pixel: impl Fn(&S, usize) -> $word,
             step: impl Fn(S) -> S,
         ) {
+            // Of one length, so that one test is enough.
+            let cells = colours.len().min(depths.len());
+            let (colours, depths) = (&mut colours[..cells], &mut depths[..cells]);
             let place = row * width + columns.start..row * width + columns.end;
             if let (Some(colours), Some(depths)) =
                 (colours.get_mut(place.clone()), depths.get_mut(place))

@@ -96,9 +96,13 @@ impl Triangle {
         if area == 0 {
             return None;
         }
+        // By signs: none is below -LIMIT, all are below LIMIT + 1.
         const LIMIT: i32 = (1 << 15) - 1;
-        let over = |v: i32| (v + LIMIT) | (LIMIT - v);
-        let small = v.as_flattened().iter().fold(0, |sign, &v| sign | over(v)) >= 0;
+        let (mut low, mut high) = (0, -1);
+        for &v in v.as_flattened() {
+            (low, high) = (low | (v + LIMIT), high & (v - LIMIT - 1));
+        }
+        let small = (low | !high) >= 0;
         Some(Triangle { corners: v, turned: area < 0, area: area.abs(), small })
     }
 

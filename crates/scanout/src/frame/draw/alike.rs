@@ -68,7 +68,7 @@ impl<'a> Frame<'a> {
         match (features::GOURAUD && source.gouraud, source.texture) {
             (false, None) => {
                 self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
-                    let z = t.plane(v.map(|v| v.z));
+                    let [z] = t.planes([v.map(|v| v.z)]);
                     target.fill(t, &z, &Flat(primitive.rgb));
                 });
             }
