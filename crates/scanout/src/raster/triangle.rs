@@ -63,6 +63,8 @@ pub struct Runs<'t> {
     way: Way,
     /// Columns that are asked for.
     columns: [i32; 2],
+    /// How many slabs there are, two at most.
+    slabs: usize,
     /// The first row of either slab, one past the last of the second.
     rows: [usize; 3],
     /// The edge from the top corner to the lowest, at the first row.
@@ -168,6 +170,7 @@ impl<'t> Runs<'t> {
             triangle: t,
             way: Way::Solved,
             columns,
+            slabs: 2,
             rows: [first as usize, turn as usize, end as usize],
             long: side(a, c, first, end),
             long_left: !turned,
@@ -203,6 +206,7 @@ impl<'t> Runs<'t> {
             triangle: t,
             way,
             columns,
+            slabs: 0,
             rows: [0; 3],
             long: side,
             long_left: true,
@@ -223,7 +227,8 @@ impl<'t> Runs<'t> {
         };
         let [left, right] = ends.map(|x| Side { x: (x as i64) << 32, step: 0 });
         (self.long, self.short[0]) = (left, right);
-        self.rows = [y as usize, y as usize + 1, y as usize + 1];
+        self.rows = [y as usize, y as usize + 1, 0];
+        self.slabs = 1;
         true
     }
 
@@ -234,7 +239,7 @@ impl<'t> Runs<'t> {
         loop {
             let (mut long, mut slab) = (self.long, 0);
             // Written so that the compiler doesn't write what follows twice.
-            while slab < self.rows.len() - 1 {
+            while slab < self.slabs {
                 let short = self.short[slab & 1];
                 let [mut left, mut right] =
                     if self.long_left { [long, short] } else { [short, long] };
@@ -247,7 +252,7 @@ impl<'t> Runs<'t> {
                     }
                 }
                 long = if self.long_left { left } else { right };
-                slab = core::hint::black_box(slab + 1);
+                slab += 1;
             }
             if self.way == Way::Solved || !self.next_row() {
                 return;
