@@ -69,8 +69,7 @@ pub trait PixelFormat: Copy + 'static {
     fn walk<S>(
         colours: &mut [Self::Word],
         depths: &mut [u16],
-        (width, row): (usize, usize),
-        columns: Range<usize>,
+        (width, row, columns): (usize, usize, Range<usize>),
         mut state: S,
         test: impl Fn(&S, &mut u16) -> bool,
         pixel: impl Fn(&S, usize) -> Self::Pixel,
@@ -142,8 +141,7 @@ macro_rules! a_word_is_a_pixel {
         fn walk<S>(
             colours: &mut [$word],
             depths: &mut [u16],
-            (width, row): (usize, usize),
-            columns: Range<usize>,
+            (width, row, columns): (usize, usize, Range<usize>),
             mut state: S,
             test: impl Fn(&S, &mut u16) -> bool,
             pixel: impl Fn(&S, usize) -> $word,

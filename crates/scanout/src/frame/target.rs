@@ -248,12 +248,10 @@ impl<F: PixelFormat> Target<'_, F> {
     ) {
         let (first, y) = (columns.start as i32, row as i32);
         let state = (z.at(first, y), shader.begin(first, y, columns.len() as i32));
-        let place = (self.width, row - self.rows.start as usize);
         F::walk(
             self.colour,
             self.depth,
-            place,
-            columns,
+            (self.width, row - self.rows.start as usize, columns),
             state,
             |(value, _), stored| depth::test(stored, depth::whole(*value)),
             |(_, pixel), i| {
