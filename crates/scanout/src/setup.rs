@@ -315,6 +315,18 @@ mod tests {
     }
 
     #[test]
+    fn small_ends_at_2_to_the_15() {
+        for (v, small) in [(32_767, true), (32_768, false), (-32_767, true), (-32_768, false)] {
+            for i in 0..6 {
+                let mut corners = [[3, 5], [400, 9], [70, 800]];
+                corners[i / 2][i % 2] = v;
+                let t = Triangle::new(corners).unwrap();
+                assert_eq!(t.small, small, "{corners:?}");
+            }
+        }
+    }
+
+    #[test]
     fn wide_edges_equal_the_definition() {
         let mut random = Random(2);
         for _ in 0..2000 {

@@ -277,6 +277,35 @@ mod tests {
     }
 
     #[test]
+    fn one_test_of_the_signs_is_all_tests() {
+        let mut random = Random(3);
+        for i in 0..200_000 {
+            let size = 2f64.powi(i % 31);
+            let near = |w: i32| (w as i64 * 8192).clamp(-(1 << 30), 1 << 30) as i32;
+            let mut c = [(); 4].map(|()| (random.unit() * size) as i32);
+            let w = c[3];
+            match i % 7 {
+                0 => c[0] = near(w) + i % 3 - 1,
+                1 => c[0] = -near(w) + i % 3 - 1,
+                2 => c[1] = near(w) + i % 3 - 1,
+                3 => c[1] = -near(w) + i % 3 - 1,
+                4 => c[2] = w + i % 3 - 1,
+                5 => c[2] = i % 3 - 1,
+                _ => c[3] = i % 3 - 1,
+            }
+            let guard = (c[3] as i64) << GUARD_BITS;
+            let outside = [
+                (NEAR, c[2] < 0 || c[3] <= 0),
+                (FAR, c[2] > c[3]),
+                (GUARD, [c[0], c[1]].iter().any(|v| v.unsigned_abs() as i64 > guard)),
+            ];
+            let expected =
+                outside.iter().fold(0, |all, &(flag, set)| if set { all | flag } else { all });
+            assert_eq!(Viewport::clip_flags(&c), expected, "{c:?}");
+        }
+    }
+
+    #[test]
     fn what_cannot_be_projected_is_flagged() {
         let viewport = Viewport::new(320, 240);
         assert_eq!(viewport.project(&[0, 0, -1, 10]).flags, NEAR);

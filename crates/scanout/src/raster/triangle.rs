@@ -365,6 +365,48 @@ mod tests {
         }
     }
 
+    /// Rows at whose centre an edge passes closest by a pixel's: there the last bit decides.
+    #[test]
+    fn spans_are_exact_where_edges_nearly_meet_centres() {
+        let mut seed = 5u64;
+        let mut random = |low: i32, high: i32| {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            low + ((seed >> 33) as i64 % (high - low) as i64) as i32
+        };
+        let (mut near, mut rows_between) = (0, 0);
+        for i in 0..4000 {
+            // As high as can be, and as high as is solved.
+            let (top, low) = if i % 2 == 0 { (-32_767, 32_767) } else { (-400, STEEPEST - 400) };
+            let (top, low) = (top + random(0, 300), low - random(0, 300));
+            let (x0, x1) = (random(-8000, 16_000), random(-8000, 16_000));
+            let third = [if i % 4 < 2 { -30_000 } else { 30_000 }, random(top, low)];
+            let Some(t) = Triangle::new([[x0, top], [x1, low], third]) else { continue };
+            let (dx, dy) = ((x1 - x0) as i64, (low - top) as i64);
+            for y in 0..2047 {
+                let down = (16 * y + 8 - top) as i64;
+                // The crossing's numerator over 16 dy.
+                let rest = ((x0 - 8) as i64 * dy + down * dx).rem_euclid(16 * dy);
+                rows_between += 1;
+                if rest > 8 && rest < 16 * dy - 8 {
+                    continue;
+                }
+                let column = ((x0 as i64 + down * dx / dy) >> 4) as i32;
+                if !(2..1100).contains(&column) {
+                    continue;
+                }
+                near += 1;
+                let columns = column - 2..column + 3;
+                let mut drawn = vec![];
+                Runs::spans(&t, y..y + 1, columns.clone())
+                    .for_each(|run| drawn.extend(run.x0..run.x1));
+                let expected: Vec<usize> =
+                    columns.filter(|&x| t.covers(x, y)).map(|x| x as usize).collect();
+                assert_eq!(drawn, expected, "{t:?} row {y}");
+            }
+        }
+        assert!(near > 40, "{near} of {rows_between}");
+    }
+
     #[test]
     fn a_fan_covers_each_pixel_once() {
         let mut seed = 11u64;
