@@ -306,18 +306,16 @@ impl<'a, S: Shader> Walked<'a, S> {
     /// The texel by the definition.
     #[cold]
     #[inline(never)]
-    fn defined(&self, x: i32, y: i32) -> u16 {
+    fn defined(&self, x: i32, y: i32) -> Option<[u32; 2]> {
         let [s, t] = &self.setup.st;
         let st = [s.at(x, y), t.at(x, y)];
-        self.sampler.texel565(&self.setup, st, reciprocal(integer_q(self.q.at(x, y))))
+        Block::one(&self.setup, self.sampler.size, self.q.at(x, y), st).texel()
     }
 
     #[inline(always)]
     fn texel(&self, block: &Block, x: i32, y: i32) -> u16 {
-        match block.texel() {
-            Some(texel) => self.sampler.inside(texel),
-            None => self.defined(x, y),
-        }
+        let texel = block.texel().or_else(|| self.defined(x, y));
+        self.sampler.inside(texel.unwrap_or_default())
     }
 }
 
@@ -335,7 +333,13 @@ impl<S: Shader> Shader for Walked<'_, S> {
     fn begin(&self, x: i32, y: i32, count: i32) -> Self::Pixel {
         let [s, t] = &self.setup.st;
         let st = [s.at(x, y), t.at(x, y)];
-        let block = self.along.block(self.q.at(x, y), st, count as u32);
+        let q = self.q.at(x, y);
+        // A block costs as much as two pixels of the definition.
+        let block = if count < 2 {
+            Block::one(&self.setup, self.sampler.size, q, st)
+        } else {
+            self.along.block(q, st, count as u32)
+        };
         (self.inner.at(x, y), block, x, y)
     }
     #[inline(always)]

@@ -20,7 +20,7 @@
 //! What it will not do: blocks that leave the texture, 16 texels a pixel and more, gradients beyond 32 bits; there every pixel is
 //! computed from the definition.
 
-use super::perspective::{Perspective, reciprocal};
+use super::perspective::{Perspective, column_and_row, integer_q, reciprocal};
 use crate::interpolate::Plane;
 
 /// The longest block in pixels.
@@ -61,6 +61,14 @@ pub struct Block {
 impl Block {
     /// Nothing is certain.
     const NONE: Block = Block { at: [0; 2], step: [0; 2], bend: [0; 2], limit: 0 };
+
+    /// A single pixel, by the definition: values of the planes as for [`Along::block`].
+    #[inline(never)]
+    pub fn one(perspective: &Perspective, size: [u64; 2], q: u32, st: [u32; 2]) -> Block {
+        let r = reciprocal(integer_q(q));
+        let texel = column_and_row(size, perspective.shift, st, r);
+        Block { at: texel.map(|v| (v as u32) << 16), limit: 1 << 16, ..Block::NONE }
+    }
 
     /// To the next pixel.
     #[inline(always)]
@@ -127,8 +135,7 @@ impl Along {
     /// A block of `count` pixels from one with these values of the planes.
     #[inline]
     pub fn block(&self, q: u32, st: [u32; 2], count: u32) -> Block {
-        // A block costs little more than a pixel of the definition.
-        if count < 2 || count > self.length || q >> 8 < LEAST_Q {
+        if count > self.length || q >> 8 < LEAST_Q {
             return Block::NONE;
         }
         let r = reciprocal(q >> 8) as u32;

@@ -254,14 +254,20 @@ impl<'a> Repeat565<'a> {
 /// Which texel a pixel has of a texture that repeats, from the shifts of a [`Perspective`].
 #[inline(always)]
 pub(super) fn texel_of_repeat(size: [u64; 2], shift: [u32; 2], st: [u32; 2], r: u64) -> usize {
+    let [x, y] = column_and_row(size, shift, st, r);
+    y * size[0] as usize + x
+}
+
+/// The texel's column and row.
+#[inline(always)]
+pub(super) fn column_and_row(size: [u64; 2], shift: [u32; 2], st: [u32; 2], r: u64) -> [usize; 2] {
     let axis = |i: usize| {
         let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift[i] - 1));
         let texel = whole(product, shift[i] + SUBTEXEL_BITS);
         // Whole repeats are taken off at setup: few triangles reach into the next one.
         (if texel < size[i] { texel } else { texel % size[i] }) as usize
     };
-    let (x, y) = (axis(0), axis(1));
-    y * size[0] as usize + x
+    [axis(0), axis(1)]
 }
 
 impl Sampler for Repeat565<'_> {
