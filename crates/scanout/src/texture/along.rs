@@ -132,10 +132,10 @@ impl Along {
         self.length
     }
 
-    /// A block of `count` pixels from one with these values of the planes.
+    /// A block of `count` pixels, two at least, from one with these values of the planes.
     #[inline]
     pub fn block(&self, q: u32, st: [u32; 2], count: u32) -> Block {
-        if count > self.length || q >> 8 < LEAST_Q {
+        if count < 2 || count > self.length || q >> 8 < LEAST_Q {
             return Block::NONE;
         }
         let r = reciprocal(q >> 8) as u32;
@@ -234,7 +234,11 @@ mod tests {
                     let st = [values[1], values[2]];
                     if x == next {
                         let count = (end - x).min(along.length() as i32);
-                        block = along.block(values[0], st, count as u32);
+                        block = if count < 2 {
+                            Block::one(&setup, sampler.size, values[0], st)
+                        } else {
+                            along.block(values[0], st, count as u32)
+                        };
                         next += count;
                     }
                     let r = reciprocal(integer_q(values[0]));
