@@ -2,7 +2,7 @@
 
 mod support;
 
-use scanout_head::face::{Cascade, Finder, Grey, Localiser};
+use scanout_head::face::{Boxes, Cascade, Finder, Grey, Localiser};
 use support::Random;
 
 fn put(to: &mut Vec<u8>, values: &[i32]) {
@@ -43,18 +43,25 @@ fn a_cascade_compares() {
     let picture: Vec<u8> = (0..60 * 40).map(|i| (i % 60 + i / 60) as u8).collect();
     let grey = Grey::new(&picture, 60).unwrap();
     let lean = scanout_head::face::Lean::NONE;
-    assert_eq!(cascade.score(&grey, [30, 20], 20, lean), Some(2 << 16));
+    let score = |grey: &Grey<'_>, middle, side, lean| {
+        cascade.score(&mut Boxes::new(grey, side, lean), grey, middle)
+    };
+    assert_eq!(score(&grey, [30, 20], 20, lean), Some(2 << 16));
     let upside_down: Vec<u8> = picture.iter().rev().copied().collect();
     let grey = Grey::new(&upside_down, 60).unwrap();
-    assert_eq!(cascade.score(&grey, [30, 20], 20, lean), None);
+    assert_eq!(score(&grey, [30, 20], 20, lean), None);
     // A head that stands on its head.
     let turned = scanout_head::face::Lean::along(-1.0, 0.0);
-    assert_eq!(cascade.score(&grey, [30, 20], 20, turned), Some(2 << 16));
+    assert_eq!(score(&grey, [30, 20], 20, turned), Some(2 << 16));
     // Not wholly in the picture.
     for place in [[9, 20], [51, 20], [30, 9], [30, 31], [-400, 20]] {
-        assert_eq!(cascade.score(&grey, place, 20, turned), None, "{place:?}");
+        assert_eq!(score(&grey, place, 20, turned), None, "{place:?}");
     }
-    assert_eq!(cascade.score(&grey, [30, 20], 0, turned), None);
+    assert_eq!(score(&grey, [30, 20], 9000, turned), None);
+    // For pictures of another width.
+    let narrow = Grey::new(&picture, 40).unwrap();
+    let mut boxes = Boxes::new(&narrow, 20, lean);
+    assert_eq!(cascade.score(&mut boxes, &grey, [30, 20]), None);
 }
 
 #[test]

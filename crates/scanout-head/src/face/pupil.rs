@@ -44,6 +44,13 @@ fn scaled(of: i32, side: i32) -> i32 {
     ((i64::from(of) * i64::from(side)) >> 8) as i32
 }
 
+/// The row and column of a code's pixel in a box about a middle (1/256 pixel), of the side times the lean's cosine and sine.
+#[inline(always)]
+fn place([x, y]: [i32; 2], [cos, sin]: [i32; 2], row: i8, column: i8) -> [i32; 2] {
+    let (r, c) = (i32::from(row), i32::from(column));
+    [(256 * y + c * sin + r * cos) >> 16, (256 * x + c * cos - r * sin) >> 16]
+}
+
 /// A square about an eye: its middle and its side, 1/256 pixel; the first pixel's centre is (128, 128).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EyeBox {
@@ -81,6 +88,27 @@ impl Localiser {
         Ok(Self { stages, trees, depth, shrink, comparisons, leaves })
     }
 
+    /// The sum of a stage's trees: down and right.
+    #[inline(always)]
+    fn step<'a>(
+        &self,
+        trees: impl Iterator<Item = (&'a [Comparison], &'a [[i32; 2]])>,
+        pixel: impl Fn(i8, i8) -> u8,
+    ) -> [i64; 2] {
+        let nodes = 1usize << self.depth;
+        let mut step = [0i64; 2];
+        for (comparisons, leaves) in trees {
+            let mut node = 1;
+            for _ in 0..self.depth {
+                let [a, b, c, d] = comparisons[node];
+                node = 2 * node + usize::from(pixel(a, b) > pixel(c, d));
+            }
+            let [down, right] = leaves[node - nodes];
+            step = [step[0] + i64::from(down), step[1] + i64::from(right)];
+        }
+        step
+    }
+
     /// The pupil in this box, 1/256 pixel, by one run.
     fn run(&self, grey: &Grey<'_>, from: EyeBox) -> [i32; 2] {
         let EyeBox { middle: [mut x, mut y], mut side, lean } = from;
@@ -90,25 +118,26 @@ impl Localiser {
         let stages = self.comparisons.chunks_exact(stage).zip(self.leaves.chunks_exact(stage));
         debug_assert_eq!(stages.len(), self.stages);
         for (comparisons, leaves) in stages {
-            let (cos, sin) = (scaled(lean.cos, side), scaled(lean.sin, side));
-            let pixel = |row: i8, column: i8| {
-                let (r, c) = (i32::from(row), i32::from(column));
-                let row = (256 * y + c * sin + r * cos) >> 16;
-                let column = (256 * x + c * cos - r * sin) >> 16;
-                let (row, column) = (row.clamp(0, bottom), column.clamp(0, right));
-                grey.levels[row as usize * grey.width + column as usize]
-            };
-            let mut step = [0i64; 2];
+            let turn = [scaled(lean.cos, side), scaled(lean.sin, side)];
             let trees = comparisons.chunks_exact(nodes).zip(leaves.chunks_exact(nodes));
-            for (comparisons, leaves) in trees {
-                let mut node = 1;
-                for _ in 0..self.depth {
-                    let [a, b, c, d] = comparisons[node];
-                    node = 2 * node + usize::from(pixel(a, b) > pixel(c, d));
-                }
-                let [down, right] = leaves[node - nodes];
-                step = [step[0] + i64::from(down), step[1] + i64::from(right)];
-            }
+            // Most boxes are far from the picture's edges, and clamping is a third of the work.
+            let reach = 128 * (i64::from(turn[0].abs()) + i64::from(turn[1].abs())) + 65_536;
+            let inside = |at: i32, last: i32| {
+                let at = 256 * i64::from(at);
+                at >= reach && at + reach <= 65_536 * i64::from(last)
+            };
+            let step = if inside(x, right) && inside(y, bottom) {
+                self.step(trees, |row, column| {
+                    let [row, column] = place([x, y], turn, row, column);
+                    grey.levels[row as usize * grey.width + column as usize]
+                })
+            } else {
+                self.step(trees, |row, column| {
+                    let [row, column] = place([x, y], turn, row, column);
+                    let (row, column) = (row.clamp(0, bottom), column.clamp(0, right));
+                    grey.levels[row as usize * grey.width + column as usize]
+                })
+            };
             let [across, along] = lean.turned([step[1], step[0]]);
             let moved = |step: i64| ((step * i64::from(side) + (1 << 23)) >> 24) as i32;
             // Far outside there is nothing to see; kept near, nothing overflows.
