@@ -139,6 +139,12 @@ impl Triangle {
         ]
     }
 
+    /// The three edges, by a call: for what is rarely done.
+    #[inline(never)]
+    pub(crate) fn edges_by_call(&self) -> [Edge; 3] {
+        self.edges()
+    }
+
     /// The three edges as a, b and the value at pixel (x, y), by 32-bit arithmetic: for triangles whose box, and the pixel
     /// in it, is at most 64 pixels wide and high.
     #[inline]

@@ -6,7 +6,7 @@ mod alike;
 
 use core::ops::Range;
 
-use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured};
+use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walked};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
 use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
@@ -307,6 +307,11 @@ impl<'f> Painter<'f> {
                 let (q, _) = common_inverse_w(v);
                 let uv = [0, 1, 2].map(|k| self.uv(corners, k));
                 match Repeat565::new(texture) {
+                    Some(sampler)
+                        if target.walks() && !(features::FOG && self.frame.fog.is_some()) =>
+                    {
+                        target.fill(t, z, &Walked::new(t, shader, sampler, uv, q));
+                    }
                     Some(sampler) => {
                         self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
                     }

@@ -282,9 +282,26 @@ impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
 pub(super) struct Walked<'a, S> {
     inner: S,
     sampler: Repeat565<'a>,
+    way: Way,
+}
+
+/// A triangle's way through a plain texture.
+struct Way {
     setup: Perspective,
     q: Plane,
     along: Along,
+}
+
+impl Way {
+    // Once a triangle: where flash is little, a call instead of a copy for each shader.
+    #[cfg_attr(target_arch = "x86_64", inline(always))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(never))]
+    fn new(t: &Triangle, sampler: &Repeat565, uv: [[i32; 2]; 3], q: [u32; 3]) -> Way {
+        let (setup, fit) = sampler.setup_and_fit(t, uv, q);
+        let ([plane], also) = t.planes_and_fit([q.map(|q| q << 8)]);
+        let along = Along::new(&setup, &plane, q, sampler.sides(), fit && also);
+        Way { setup, q: plane, along }
+    }
 }
 
 impl<'a, S: Shader> Walked<'a, S> {
@@ -297,19 +314,16 @@ impl<'a, S: Shader> Walked<'a, S> {
         uv: [[i32; 2]; 3],
         q: [u32; 3],
     ) -> Self {
-        let (setup, fit) = sampler.setup_and_fit(t, uv, q);
-        let ([plane], also) = t.planes_and_fit([q.map(|q| q << 8)]);
-        let along = Along::new(&setup, &plane, q, sampler.sides(), fit && also);
-        Walked { inner, sampler, setup, q: plane, along }
+        Walked { inner, way: Way::new(t, &sampler, uv, q), sampler }
     }
 
     /// The texel by the definition.
     #[cold]
     #[inline(never)]
     fn defined(&self, x: i32, y: i32) -> Option<[u32; 2]> {
-        let [s, t] = &self.setup.st;
+        let [s, t] = &self.way.setup.st;
         let st = [s.at(x, y), t.at(x, y)];
-        Block::one(&self.setup, self.sampler.size, self.q.at(x, y), st).texel()
+        Block::one(&self.way.setup, self.sampler.size, self.way.q.at(x, y), st).texel()
     }
 
     #[inline(always)]
@@ -331,20 +345,20 @@ impl<S: Shader> Shader for Walked<'_, S> {
     }
     #[inline(always)]
     fn begin(&self, x: i32, y: i32, count: i32) -> Self::Pixel {
-        let [s, t] = &self.setup.st;
+        let [s, t] = &self.way.setup.st;
         let st = [s.at(x, y), t.at(x, y)];
-        let q = self.q.at(x, y);
+        let q = self.way.q.at(x, y);
         // A block costs as much as two pixels of the definition.
         let block = if count < 2 {
-            Block::one(&self.setup, self.sampler.size, q, st)
+            Block::one(&self.way.setup, self.sampler.size, q, st)
         } else {
-            self.along.block(q, st, count as u32)
+            self.way.along.block(q, st, count as u32)
         };
         (self.inner.at(x, y), block, x, y)
     }
     #[inline(always)]
     fn longest(&self) -> i32 {
-        self.along.length() as i32
+        self.way.along.length() as i32
     }
     #[inline(always)]
     fn step(&self, (inner, mut block, x, y): Self::Pixel, count: u32) -> Self::Pixel {

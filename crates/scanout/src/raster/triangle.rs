@@ -16,6 +16,7 @@
 //!
 //! Cost of a row: two additions and two comparisons; at most three divisions a triangle.
 
+use crate::features;
 use crate::math::{NO_DIVISION, floor};
 use crate::setup::{Triangle, first_pixel};
 use core::ops::Range;
@@ -265,13 +266,16 @@ impl<'t> Runs<'t> {
 #[cold]
 #[inline(never)]
 fn ends(t: &Triangle, y: i32, [mut x0, mut x1]: [i32; 2], way: Way) -> [i32; 2] {
-    if way == Way::Tested {
-        while x0 < x1 && !t.covers(x0, y) {
+    let edges = t.edges_by_call();
+    // By divisions it is the same, and little code.
+    if way == Way::Tested && features::TILES {
+        let covers = |x: i32| edges.iter().all(|edge| edge.at(x, y) >= 0);
+        while x0 < x1 && !covers(x0) {
             x0 += 1;
         }
-        x1 = (x0..x1).find(|&x| !t.covers(x, y)).unwrap_or(x1);
+        x1 = (x0..x1).find(|&x| !covers(x)).unwrap_or(x1);
     } else {
-        for edge in t.edges().iter().filter(|edge| edge.a != 0) {
+        for edge in edges.iter().filter(|edge| edge.a != 0) {
             let f = (edge.b * y as i64 + edge.k).div_euclid(edge.a.abs()).clamp(-1 << 29, 1 << 29);
             if edge.a > 0 { x0 = x0.max(-f as i32) } else { x1 = x1.min(f as i32 + 1) }
         }

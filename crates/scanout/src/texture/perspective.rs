@@ -274,7 +274,9 @@ impl Sampler for Repeat565<'_> {
     type Setup = Perspective;
     const RGB565: bool = true;
 
-    #[inline(always)]
+    // Once a triangle: where flash is little, a call instead of a copy for each shader.
+    #[cfg_attr(target_arch = "x86_64", inline(always))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(never))]
     fn setup(&self, t: &Triangle, uv: [[i32; 2]; 3], q: [u32; 3]) -> Perspective {
         self.setup_and_fit(t, uv, q).0
     }
