@@ -104,16 +104,24 @@ fn dot(a: [i32; 3], b: [i32; 3]) -> i32 {
 
 /// Whether a transform keeps angles: columns of equal length at right angles, to one part in 512.
 fn keeps_angles(m: &Mat4) -> bool {
-    let largest =
-        m.m[..3].iter().flat_map(|r| &r[..3]).map(|v| v.unsigned_abs()).max().unwrap_or(0);
-    let shift = (64 - largest.leading_zeros()).saturating_sub(20);
-    let product = |i: usize, j: usize| -> i64 {
-        (0..3).map(|k| (m.m[k][i] >> shift) * (m.m[k][j] >> shift)).sum()
-    };
-    let length = product(0, 0);
+    let rows = &m.m[..3];
+    // All together have the bits of the largest.
+    let all = rows
+        .iter()
+        .fold(0, |all, r| all | r[0].unsigned_abs() | r[1].unsigned_abs() | r[2].unsigned_abs());
+    let shift = (64 - all.leading_zeros()).saturating_sub(20);
+    let length = columns(rows, 0, 0, shift);
     let tolerance = length >> 9;
-    [product(1, 1), product(2, 2)].iter().all(|l| (l - length).abs() <= tolerance)
-        && [product(0, 1), product(0, 2), product(1, 2)].iter().all(|d| d.abs() <= tolerance)
+    [(1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].iter().all(|&(i, j)| {
+        let wanted = if i == j { length } else { 0 };
+        (columns(rows, i, j, shift) - wanted).abs() <= tolerance
+    })
+}
+
+/// The inner product of two columns, their entries moved down.
+#[inline(never)]
+fn columns(rows: &[[i64; 4]], i: usize, j: usize, shift: u32) -> i64 {
+    rows.iter().map(|row| (row[i] >> shift) * (row[j] >> shift)).sum()
 }
 
 /// Whether an object is lit so that the feature `all-lights` is not needed for it.

@@ -51,14 +51,16 @@ fn scale(v: i64, shift: i32) -> i32 {
     if shift > 0 { ((v >> (shift - 1)).wrapping_add(1) >> 1) as i32 } else { (v << -shift) as i32 }
 }
 
+/// The sum of a row's sizes, saturating.
+#[inline(never)]
+fn row_size(row: &[i64; 4]) -> u64 {
+    row.iter().fold(0, |sum, v| sum.saturating_add(v.unsigned_abs()))
+}
+
 impl ClipMatrix {
     /// Takes the common power of two out of an object-to-clip matrix.
     pub fn new(object_to_clip: &Mat4) -> ClipMatrix {
-        let norm = object_to_clip
-            .m
-            .iter()
-            .map(|row| row.iter().fold(0u64, |sum, v| sum.saturating_add(v.unsigned_abs())))
-            .fold(1, u64::max);
+        let norm = object_to_clip.m.iter().map(row_size).fold(1, u64::max);
         let exponent = (64 - norm.leading_zeros()) as i32 - 30;
         ClipMatrix { m: object_to_clip.m.map(|row| row.map(|v| scale(v, exponent))), exponent }
     }

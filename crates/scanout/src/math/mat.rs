@@ -86,19 +86,24 @@ impl Mat4 {
         let mut i = 0;
         while i < 16 {
             let (row, column) = (i / 4, i % 4);
-            let mut sum = 0i128;
-            let mut k = 0;
-            while k < 4 {
-                let (a, b) = (self.m[row][k], other.m[k][column]);
-                if a != 0 && b != 0 {
-                    sum = add_product(sum, a, b);
-                }
-                k += 1;
-            }
-            out[row][column] = saturate64(shift_right_nearest(sum, 32));
+            out[row][column] = self.product_entry(other, row, column);
             i += 1;
         }
         Mat4 { m: out }
+    }
+
+    #[inline(never)]
+    const fn product_entry(&self, other: &Mat4, row: usize, column: usize) -> i64 {
+        let mut sum = 0i128;
+        let mut k = 0;
+        while k < 4 {
+            let (a, b) = (self.m[row][k], other.m[k][column]);
+            if a != 0 && b != 0 {
+                sum = add_product(sum, a, b);
+            }
+            k += 1;
+        }
+        saturate64(shift_right_nearest(sum, 32))
     }
 
     /// The point (x, y, z, 1) transformed, Q32.32: exact before one rounding to nearest; saturates.
@@ -120,10 +125,15 @@ impl Mat4 {
         let mut out = [0; 3];
         let mut row = 0;
         while row < 3 {
-            out[row] = saturate64(shift_right_nearest(self.row_dot(row, d), 16));
+            out[row] = self.direction_entry(row, d);
             row += 1;
         }
         out
+    }
+
+    #[inline(never)]
+    const fn direction_entry(&self, row: usize, d: Vec3) -> i64 {
+        saturate64(shift_right_nearest(self.row_dot(row, d), 16))
     }
 
     /// First three entries of a row times a vector: Q32 x Q16 = Q48, below 2^96.
@@ -154,13 +164,7 @@ impl Mat4 {
     const fn move_back(mut self, m: &[[i64; 4]; 4]) -> Mat4 {
         let mut row = 0;
         while row < 3 {
-            let mut sum = 0i128;
-            let mut k = 0;
-            while k < 3 {
-                sum = add_product(sum, self.m[row][k], m[k][3]);
-                k += 1;
-            }
-            self.m[row][3] = saturate64(shift_right_nearest(sum.saturating_neg(), 32));
+            self.m[row][3] = moved_back(&self.m[row], m);
             row += 1;
         }
         self
@@ -182,13 +186,7 @@ impl Mat4 {
         let mut down = [0i32; 3];
         let mut i = 0;
         while i < 3 {
-            let all = m[i][0].unsigned_abs() | m[i][1].unsigned_abs() | m[i][2].unsigned_abs();
-            down[i] = 24 - all.leading_zeros() as i32;
-            let mut k = 0;
-            while k < 3 {
-                b[i][k] = at_40_bits(m[i][k], down[i]);
-                k += 1;
-            }
+            (b[i], down[i]) = row_at_40_bits(&m[i]);
             i += 1;
         }
         let det = add_wide_product(
@@ -210,7 +208,7 @@ impl Mat4 {
         i = 0;
         while i < 9 {
             let (r, c) = (i / 3, i % 3);
-            match quotient(cofactor(&b, c, r), det, 64 - down[c] - det_down) {
+            match entry(&b, &det, r, c, 64 - down[c] - det_down) {
                 Some(entry) => out.m[r][c] = entry,
                 None => return None,
             }
@@ -218,6 +216,30 @@ impl Mat4 {
         }
         Some(out.move_back(m))
     }
+}
+
+// What follows is done once an object: calls, since loops of few steps are written out elsewhere.
+
+/// Minus a row times the translation of `m`.
+#[inline(never)]
+const fn moved_back(row: &[i64; 4], m: &[[i64; 4]; 4]) -> i64 {
+    let sum = add_product(add_product(0, row[0], m[0][3]), row[1], m[1][3]);
+    let sum = add_product(sum, row[2], m[2][3]);
+    saturate64(shift_right_nearest(sum.saturating_neg(), 32))
+}
+
+/// The first three entries with 40 bits, and how far down they were moved for that.
+#[inline(never)]
+const fn row_at_40_bits(row: &[i64; 4]) -> ([i64; 3], i32) {
+    let all = row[0].unsigned_abs() | row[1].unsigned_abs() | row[2].unsigned_abs();
+    let down = 24 - all.leading_zeros() as i32;
+    ([at_40_bits(row[0], down), at_40_bits(row[1], down), at_40_bits(row[2], down)], down)
+}
+
+/// An entry of the inverse.
+#[inline(never)]
+const fn entry(b: &[[i64; 3]; 3], det: &i128, r: usize, c: usize, by: i32) -> Option<i64> {
+    quotient(cofactor(b, c, r), *det, by)
 }
 
 /// `n 2^-down`, nearest; below 2^41.

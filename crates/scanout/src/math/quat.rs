@@ -72,17 +72,20 @@ impl Quat {
     ///
     /// Made from [`Quat::from_axis_angle`], an entry is off by at most 2^-26.5.
     pub const fn to_mat4(self) -> Mat4 {
-        let [s, x, y, z] = [self.s as i64, self.x as i64, self.y as i64, self.z as i64];
+        let Quat { s, x, y, z } = self;
+        let (nx, ny, nz) = (x.saturating_neg(), y.saturating_neg(), z.saturating_neg());
         // 2 (a b + c d): Q60 to Q32.
-        const fn twice(a: i64, b: i64, c: i64, d: i64) -> i64 {
-            (a * b).saturating_add(c * d).saturating_add(1 << 26) >> 27
+        #[inline(never)]
+        const fn twice(a: i32, b: i32, c: i32, d: i32) -> i64 {
+            let sum = (a as i64 * b as i64).saturating_add(c as i64 * d as i64);
+            sum.saturating_add(1 << 26) >> 27
         }
         const ONE: i64 = 1 << 32;
         Mat4 {
             m: [
-                [ONE - twice(y, y, z, z), twice(x, y, -z, s), twice(x, z, y, s), 0],
-                [twice(x, y, z, s), ONE - twice(x, x, z, z), twice(y, z, -x, s), 0],
-                [twice(x, z, -y, s), twice(y, z, x, s), ONE - twice(x, x, y, y), 0],
+                [ONE - twice(y, y, z, z), twice(x, y, nz, s), twice(x, z, y, s), 0],
+                [twice(x, y, z, s), ONE - twice(x, x, z, z), twice(y, z, nx, s), 0],
+                [twice(x, z, ny, s), twice(y, z, x, s), ONE - twice(x, x, y, y), 0],
                 [0, 0, 0, ONE],
             ],
         }

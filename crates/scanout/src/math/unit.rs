@@ -119,20 +119,7 @@ pub(super) const fn normalise4(v: [i64; 4]) -> Option<[i32; 4]> {
     let mut sum = 0u64;
     i = 0;
     while i < 4 {
-        let wide = if bits <= 31 {
-            v[i] << (31 - bits)
-        } else {
-            (v[i] >> (bits - 31)) + ((v[i] >> (bits - 32)) & 1)
-        };
-        // Rounding may reach 2^31; one less keeps four squares within 64 bits.
-        let most = (1i64 << 31) - 1;
-        scaled[i] = if wide > most {
-            most
-        } else if wide < -most {
-            -most
-        } else {
-            wide
-        };
+        scaled[i] = at_31_bits(v[i], bits);
         sum += (scaled[i] * scaled[i]) as u64;
         i += 1;
     }
@@ -142,11 +129,35 @@ pub(super) const fn normalise4(v: [i64; 4]) -> Option<[i32; 4]> {
     let mut unit = [0i32; 4];
     i = 0;
     while i < 4 {
-        let magnitude = ((scaled[i].abs() << 30) + length / 2) / length;
-        unit[i] = if scaled[i] < 0 { -magnitude as i32 } else { magnitude as i32 };
+        unit[i] = component(scaled[i], length);
         i += 1;
     }
     Some(unit)
+}
+
+// Calls, since loops of four steps are written out.
+
+/// A component of a vector whose greatest has so many bits, at 31 bits.
+#[inline(never)]
+const fn at_31_bits(v: i64, bits: u32) -> i64 {
+    let wide =
+        if bits <= 31 { v << (31 - bits) } else { (v >> (bits - 31)) + ((v >> (bits - 32)) & 1) };
+    // Rounding may reach 2^31; one less keeps four squares within 64 bits.
+    let most = (1i64 << 31) - 1;
+    if wide > most {
+        most
+    } else if wide < -most {
+        -most
+    } else {
+        wide
+    }
+}
+
+/// `v / length` in Q2.30, nearest.
+#[inline(never)]
+const fn component(v: i64, length: i64) -> i32 {
+    let magnitude = ((v.abs() << 30) + length / 2) / length;
+    if v < 0 { -magnitude as i32 } else { magnitude as i32 }
 }
 
 /// The direction of an integer vector of any scale, Q2.14, for every pixel of Phong shading: error
