@@ -466,8 +466,12 @@ impl<'r> PpmReader<'r> {
     /// # Errors
     /// The file is malformed or its texels don't fit the memory; feed no more then.
     pub fn feed(&mut self, chunk: &[u8]) -> Result<(), PpmError> {
+        self.step(Some(chunk))
+    }
+
+    fn step(&mut self, chunk: Option<&[u8]>) -> Result<(), PpmError> {
         let PpmReader { parser, texels, count, size } = self;
-        let result = parser.feed(chunk, &mut |event| match event {
+        let mut take = |event: ppm::Event| match event {
             ppm::Event::Header { width, height } => *size = Some((width, height)),
             ppm::Event::Texel(rgb) => {
                 if let Some(texel) = texels.get_mut(*count) {
@@ -475,7 +479,13 @@ impl<'r> PpmReader<'r> {
                 }
                 *count += 1;
             }
-        });
+        };
+        // By reference, so that there is one copy of the parser; no chunk is the end of the file.
+        let mut sink: &mut dyn FnMut(ppm::Event) = &mut take;
+        let result = match chunk {
+            Some(chunk) => parser.feed(chunk, &mut sink),
+            None => parser.finish(&mut sink),
+        };
         self.fits()?;
         result.map_err(PpmError::Syntax)
     }
@@ -485,13 +495,7 @@ impl<'r> PpmReader<'r> {
     /// # Errors
     /// As [`feed`](Self::feed), or texels are missing.
     pub fn finish(mut self) -> Result<Picture, PpmError> {
-        let PpmReader { parser, texels, count, .. } = &mut self;
-        let result = parser.finish(&mut |event| {
-            if let (ppm::Event::Texel(rgb), Some(texel)) = (event, texels.get_mut(*count)) {
-                *texel = pack(rgb);
-            }
-        });
-        result.map_err(PpmError::Syntax)?;
+        self.step(None)?;
         // Done, so there was a header, which fitted.
         let (width, height) = self.size.unwrap_or((0, 0));
         Ok(Picture { width: width as u16, height: height as u16 })

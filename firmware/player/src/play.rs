@@ -147,7 +147,7 @@ struct Loaded {
 /// The fault that it gave up at.
 pub fn play<B: Board>(board: &mut B, memory: &mut Memory<'_>) -> Result<(), Fault> {
     let mut display = false;
-    let loaded = loop {
+    let mut loaded = loop {
         if !display {
             display = board.start_display().is_ok();
             if !display && !told(board, memory, false, &Fault::Display) {
@@ -173,10 +173,10 @@ pub fn play<B: Board>(board: &mut B, memory: &mut Memory<'_>) -> Result<(), Faul
             }
         }
     };
-    if let Some(excuse) = &loaded.excuse
-        && !told(board, memory, true, excuse)
+    if let Some(excuse) = loaded.excuse.take()
+        && !told(board, memory, true, &excuse)
     {
-        return Err(excuse.clone());
+        return Err(excuse);
     }
     frames(board, memory, &loaded)
 }

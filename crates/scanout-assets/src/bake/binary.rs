@@ -354,11 +354,16 @@ impl<'a> BakedMesh<'a> {
 
 /// `count` elements at byte `offset`, if they lie in `bytes` and are aligned.
 fn slice<T: AnyBitPattern>(bytes: &[u8], offset: usize, count: usize) -> Option<&[T]> {
+    bytemuck::try_cast_slice(range(bytes, offset, count, size_of::<T>())?).ok()
+}
+
+/// The bytes of `count` elements: one function for all types.
+#[inline(never)]
+fn range(bytes: &[u8], offset: usize, count: usize, size: usize) -> Option<&[u8]> {
     if !offset.is_multiple_of(4) {
         return None;
     }
-    let size = count.checked_mul(size_of::<T>())?;
-    bytemuck::try_cast_slice(bytes.get(offset..offset.checked_add(size)?)?).ok()
+    bytes.get(offset..offset.checked_add(count.checked_mul(size)?)?)
 }
 
 // The callers have checked that the field lies in the file.

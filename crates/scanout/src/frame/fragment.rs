@@ -302,6 +302,15 @@ impl Way {
         let along = Along::new(&setup, &plane, q, sampler.sides(), fit && also);
         Way { setup, q: plane, along }
     }
+
+    /// The texel by the definition.
+    #[cold]
+    #[inline(never)]
+    fn defined(&self, size: [u64; 2], x: i32, y: i32) -> Option<[u32; 2]> {
+        let [s, t] = &self.setup.st;
+        let st = [s.at(x, y), t.at(x, y)];
+        Block::one(&self.setup, size, self.q.at(x, y), st).texel()
+    }
 }
 
 impl<'a, S: Shader> Walked<'a, S> {
@@ -317,18 +326,9 @@ impl<'a, S: Shader> Walked<'a, S> {
         Walked { inner, way: Way::new(t, &sampler, uv, q), sampler }
     }
 
-    /// The texel by the definition.
-    #[cold]
-    #[inline(never)]
-    fn defined(&self, x: i32, y: i32) -> Option<[u32; 2]> {
-        let [s, t] = &self.way.setup.st;
-        let st = [s.at(x, y), t.at(x, y)];
-        Block::one(&self.way.setup, self.sampler.size, self.way.q.at(x, y), st).texel()
-    }
-
     #[inline(always)]
     fn texel(&self, block: &Block, x: i32, y: i32) -> u16 {
-        let texel = block.texel().or_else(|| self.defined(x, y));
+        let texel = block.texel().or_else(|| self.way.defined(self.sampler.size, x, y));
         self.sampler.inside(texel.unwrap_or_default())
     }
 }
