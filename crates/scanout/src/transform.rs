@@ -62,7 +62,11 @@ impl ClipMatrix {
     pub fn new(object_to_clip: &Mat4) -> ClipMatrix {
         let norm = object_to_clip.m.iter().map(row_size).fold(1, u64::max);
         let exponent = (64 - norm.leading_zeros()) as i32 - 30;
-        ClipMatrix { m: object_to_clip.m.map(|row| row.map(|v| scale(v, exponent))), exponent }
+        let mut m = [[0; 4]; 4];
+        for (to, &from) in m.as_flattened_mut().iter_mut().zip(object_to_clip.m.as_flattened()) {
+            *to = scale(from, exponent);
+        }
+        ClipMatrix { m, exponent }
     }
 
     /// [`apply`](Self::apply) for what is rarely done: a call instead of the code.

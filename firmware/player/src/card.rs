@@ -151,6 +151,7 @@ fn four(block: &Block, at: usize) -> u32 {
 }
 
 /// The number of clusters of a volume, from its boot sector, which must make sense: embedded-sdmmc computes with it.
+#[inline(never)]
 fn clusters(block: &Block) -> Result<u32, Fault> {
     let either = |short, long| if short != 0 { short } else { long };
     let total = either(two(block, 19), four(block, 32));
@@ -192,6 +193,7 @@ enum Sector0 {
     Partition { index: usize, first: u32 },
 }
 
+#[inline(never)]
 fn examine(block: &Block) -> Result<Sector0, Fault> {
     if two(block, 510) != 0xaa55 {
         return Err(Fault::Format("sector 0 has no signature"));
@@ -236,6 +238,7 @@ type Folder<'f, 'c, C> = Directory<'f, Careful<'c, C>, NoTime, 3, 1, 1>;
 ///
 /// # Errors
 /// The card's, the volume's, or what `with` says.
+#[inline(never)]
 pub fn with_files<C: Card, R>(
     card: &C,
     cost: &Cell<Cost>,
@@ -330,6 +333,7 @@ impl<C: Card> Files<'_, '_, C> {
     }
 
     /// The short name of an entry, found by its long or its short one.
+    #[inline(never)]
     fn find(
         &self,
         folder: &Folder<'_, '_, C>,

@@ -139,6 +139,7 @@ impl<'r, 'm> ObjReader<'r, 'm> {
     ///
     /// # Errors
     /// As [`feed`](Self::feed), or there is nothing to draw.
+    #[inline(never)]
     pub fn finish(mut self) -> Result<Built, ObjError> {
         self.step(|parser, mut sink| parser.finish(&mut sink))?;
         self.state.finish().map_err(ObjError::Model)
@@ -411,6 +412,7 @@ pub struct Picture {
 
 impl Built {
     /// The model in the memory that it was read into.
+    #[inline(never)]
     pub fn model<'m>(&self, memory: &'m ModelMemory<'_>, picture: Option<Picture>) -> Model<'m> {
         let Totals { positions, uvs, triangles, .. } = self.totals;
         let normals = match self.flat {

@@ -181,6 +181,7 @@ pub fn play<B: Board>(board: &mut B, memory: &mut Memory<'_>) -> Result<(), Faul
     frames(board, memory, &loaded)
 }
 
+#[inline(never)]
 fn report<B: Board>(board: &mut B, loaded: &Loaded, cost: Cost) {
     let Totals { positions, normals, uvs, triangles } = loaded.built.totals;
     let Loaded { show, bytes, .. } = loaded;
@@ -226,6 +227,7 @@ fn say_fault<B: Board>(board: &mut B, fault: &Fault) {
     board.say(b"\n");
 }
 
+#[inline(never)]
 fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Result<Loaded, Fault> {
     let mut bytes = 0;
     let (mut text, mut length) = ([0; 1024], 0);
@@ -270,6 +272,7 @@ fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Resu
     Ok(Loaded { show, built, picture, excuse, bytes })
 }
 
+#[inline(never)]
 fn texture<C: Card>(
     files: &Files<'_, '_, C>,
     show: &Show,
@@ -288,6 +291,7 @@ fn texture<C: Card>(
     Ok((reader.finish().map_err(told)?, bytes))
 }
 
+#[inline(never)]
 fn frames<B: Board>(board: &mut B, memory: &mut Memory<'_>, loaded: &Loaded) -> Result<(), Fault> {
     let Loaded { show, built, picture, .. } = loaded;
     let harts = show.harts.unwrap_or(show::Harts::Relay);

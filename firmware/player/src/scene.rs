@@ -50,6 +50,7 @@ pub fn angle(frame: u32) -> Angle {
 }
 
 /// Object to world: the grid's place, then scale, rotation about y, translation.
+#[inline(never)]
 pub fn transform(placement: &Placement, scale: Q16, frame: u32) -> Mat4 {
     let mut grid = Mat4::IDENTITY;
     for axis in 0..3 {

@@ -59,6 +59,7 @@ impl Show {
     ///
     /// # Errors
     /// The first line that isn't understood.
+    #[inline(never)]
     pub fn parse(text: &[u8]) -> Result<Show, Fault> {
         let mut show = Show::default();
         for (index, line) in text.split(|&byte| byte == b'\n').enumerate() {

@@ -198,11 +198,17 @@ impl<'f> Painter<'f> {
     fn clipped_triangle<F: PixelFormat>(&self, triangle: [u16; 3], target: &mut Target<F>) {
         let settings = self.frame.settings;
         let viewport = Viewport::new(settings.width, settings.height);
-        let polygon = clip::triangle([0, 1, 2].map(|k| self.corner(k, triangle[k])));
+        // In place: a corner is many words, and `map` moves it about.
+        let mut whole = [Corner::default(); 3];
+        for (k, corner) in whole.iter_mut().enumerate() {
+            *corner = self.corner(k, triangle[k]);
+        }
+        let polygon = clip::triangle(whole);
         let corners = polygon.corners();
         for i in 2..corners.len() {
             let fan = [corners[0], corners[i - 1], corners[i]];
-            let vertices = fan.map(|c| Vertex { rgb: c.rgb, ..viewport.project_one(&c.clip) });
+            let vertices =
+                fan.each_ref().map(|c| Vertex { rgb: c.rgb, ..viewport.project_one(&c.clip) });
             if let Some(t) = Triangle::new(vertices.each_ref().map(|v| [v.x, v.y])) {
                 self.paint(&t, vertices.each_ref(), &Corners::Clipped(&fan), target);
             }

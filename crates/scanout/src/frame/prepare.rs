@@ -498,7 +498,7 @@ impl ObjectPass<'_> {
             list.stats.back_facing += 1;
             return;
         }
-        let Some(rows) = self.clipped_rows(triangle) else {
+        let Some(rows) = self.clipped_rows(&corners) else {
             list.stats.outside += 1;
             return;
         };
@@ -559,8 +559,13 @@ impl ObjectPass<'_> {
     }
 
     /// Rows of the frame that a clipped triangle may touch.
-    fn clipped_rows(&self, triangle: [u16; 3]) -> Option<(i16, i16)> {
-        let polygon = clip::triangle(triangle.map(|c| self.corner(c)));
+    fn clipped_rows(&self, triangle: &[[i32; 4]; 3]) -> Option<(i16, i16)> {
+        // In place: a corner is many words, and `map` moves it about.
+        let mut corners = [Corner::default(); 3];
+        for (corner, &clip) in corners.iter_mut().zip(triangle) {
+            corner.clip = clip;
+        }
+        let polygon = clip::triangle(corners);
         let corners = polygon.corners();
         if corners.is_empty() {
             return None;
