@@ -146,7 +146,7 @@ impl<'a> Frame<'a> {
                 && features::TWO_SIDED
                 && object.mode == Mode::Gouraud
                 && primitive.tag & BACK != 0);
-        if late_light && !matches!(lights, Some((owner, _)) if *owner == primitive.object) {
+        if LATE_LIGHT && late_light && !matches!(lights, Some((owner, _)) if *owner == primitive.object) {
             *lights = Some((primitive.object, lighting(self.scene, object)));
         }
         let painter = Painter {
@@ -165,6 +165,9 @@ impl<'a> Frame<'a> {
         }
     }
 }
+
+/// Whether anything may be lit while drawing.
+const LATE_LIGHT: bool = features::PHONG || (features::GOURAUD && features::TWO_SIDED);
 
 /// Where a triangle's corners come from: most triangles need no more than their vertices, the rest is looked up where
 /// it is used.
@@ -245,7 +248,7 @@ impl<'f> Painter<'f> {
             uv: self.mesh_uv(k),
             ..Corner::default()
         };
-        if let Some(lighting) = self.lighting {
+        if LATE_LIGHT && let Some(lighting) = self.lighting {
             let normal = match mesh.normals {
                 Normals::Vertex(normals) => normals[i as usize],
                 Normals::Face(normals) => normals[index],
