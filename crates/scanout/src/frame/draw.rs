@@ -78,6 +78,7 @@ impl<'a> Frame<'a> {
                     self.draw_groups(&source, run, lights, target);
                 }
                 Some(source) => self.draw_plain(&source, run, lights, target),
+                None if ALIKE => {}
                 None => {
                     let rows = target.rows.clone();
                     for primitive in run.iter().filter(|p| p.touches(&rows)) {
@@ -169,6 +170,14 @@ impl<'a> Frame<'a> {
 /// Whether anything may be lit while drawing.
 const LATE_LIGHT: bool = features::PHONG || (features::GOURAUD && features::TWO_SIDED);
 
+/// Whether all triangles are made alike but those that are clipped: [`Frame::prepare`] has refused what isn't.
+const ALIKE: bool = !(LATE_LIGHT
+    || features::ALL_TEXTURES
+    || features::PALETTE_TEXTURES
+    || features::FOG
+    || features::LINES
+    || features::POINTS);
+
 /// Where a triangle's corners come from: most triangles need no more than their vertices, the rest is looked up where
 /// it is used.
 enum Corners<'c> {
@@ -192,6 +201,9 @@ impl<'f> Painter<'f> {
         let triangle = self.object.mesh.triangles[self.primitive.index as usize];
         if self.primitive.tag & CLIPPED != 0 {
             return self.clipped_triangle(triangle, target);
+        }
+        if ALIKE {
+            return;
         }
         let vertices = triangle.map(|i| &self.vertices[i as usize]);
         let Some(t) = Triangle::new(vertices.map(|v| [v.x, v.y])) else { return };
