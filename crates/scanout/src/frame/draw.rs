@@ -147,7 +147,10 @@ impl<'a> Frame<'a> {
                 && features::TWO_SIDED
                 && object.mode == Mode::Gouraud
                 && primitive.tag & BACK != 0);
-        if LATE_LIGHT && late_light && !matches!(lights, Some((owner, _)) if *owner == primitive.object) {
+        if LATE_LIGHT
+            && late_light
+            && !matches!(lights, Some((owner, _)) if *owner == primitive.object)
+        {
             *lights = Some((primitive.object, lighting(self.scene, object)));
         }
         let painter = Painter {
