@@ -90,9 +90,9 @@ pub fn first_pixel(v: i32) -> i32 {
 
 impl Triangle {
     /// Sets up a triangle from its corners, Q28.4, each |coordinate| <= 2^29; `None` when it has no area.
-    // Where 64 bits are many instructions, a call instead of copies of them.
-    #[cfg_attr(not(target_pointer_width = "32"), inline(always))]
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    // On Armv6-M, where 64 bits are many instructions, a call instead of copies of them.
+    #[cfg_attr(not(all(target_arch = "arm", not(target_has_atomic = "32"))), inline(always))]
+    #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
     pub fn new(v: [[i32; 2]; 3]) -> Option<Triangle> {
         let area = signed_area(&v);
         if area == 0 {
