@@ -65,7 +65,8 @@ pub fn run(args: &WindowArgs) -> Result<()> {
     if let Some(path) = &args.output {
         animation::container_for(path)?;
         let film = args.head == "camera" && is_film(&args.source);
-        if !args.head.contains('.') && !film {
+        let live = matches!(args.head.as_str(), "mouse" | "keys" | "udp" | "camera");
+        if live && !film {
             return Err(Error::usage(
                 "pictures are written of a recording or a film",
                 "give --head FILE.csv, recorded with --record, or --head camera --source FILM",
