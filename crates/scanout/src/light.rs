@@ -390,6 +390,7 @@ mod tests {
 
     /// B's equations 3 to 5 in real numbers, in the world.
     #[test]
+    #[cfg_attr(not(feature = "all-lights"), ignore = "the feature all-lights is left out")]
     fn equations_3_to_5_of_system_b() {
         let mut random = Random(1);
         let mut worst = 0f64;
@@ -446,6 +447,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg_attr(not(feature = "all-lights"), ignore = "the feature all-lights is left out")]
     fn the_floor_holds_and_colours_count() {
         let red = Light {
             kind: LightKind::Directional(Vec3::from_f64([0.0, 0.0, 2.0])),

@@ -440,6 +440,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg_attr(not(feature = "all-textures"), ignore = "the feature all-textures is left out")]
     fn coordinates_and_levels_match_real_numbers() {
         let texels = [[0u8; 3]; 256 * 128 * 4 / 3 + 2];
         let mut texture = Texture::new(256, 128, Texels::Rgb888(&texels)).unwrap();
