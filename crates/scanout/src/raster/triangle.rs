@@ -142,7 +142,7 @@ pub fn tiles(t: &Triangle, width: i32) -> impl Iterator<Item = Range<i32>> + use
 }
 
 impl<'t> Runs<'t> {
-    /// By the edges' places; only `rows` and `columns`.
+    /// By the edges' places; only `rows` and `columns`, which begin at 0 or after it.
     #[inline(never)]
     pub fn spans(t: &'t Triangle, rows: Range<i32>, columns: Range<i32>) -> Runs<'t> {
         let columns = [columns.start, columns.end];
@@ -213,7 +213,10 @@ impl<'t> Runs<'t> {
             long_left: true,
             short: [side; 2],
             rest: if columns[0] < columns[1] { first..end } else { 0..0 },
-            steps: [(); NO_DIVISION as usize].map(|()| Steps::new(t, columns[0], first)),
+            steps: [(); NO_DIVISION as usize].map(|()| match way {
+                Way::Stepped => Steps::new(t, columns[0], first),
+                _ => Steps::default(),
+            }),
         }
     }
 
