@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use scanout_assets::text::{Value, fill};
-//! let mut line = Vec::new();
+//! let mut line: Vec<u8> = Vec::new();
 //! fill("line %: '%' at %", &[Value::Number(7), Value::Escaped(b"x\xff"), Value::Hex(255)], &mut |piece| line.extend(piece));
 //! assert_eq!(line, b"line 7: 'x\\xff' at 0xff");
 //! ```
