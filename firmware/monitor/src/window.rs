@@ -42,7 +42,7 @@ impl Content for Frames {
     }
 
     fn title(&self) -> String {
-        "scanout: the board's display".into()
+        "the board's display".into()
     }
 
     fn rate(&mut self, _: f64, _: f64) {}
