@@ -1,23 +1,23 @@
 //! Preparing: transform and light every vertex once, list what can be seen.
 
 mod lines;
+mod triangles;
 
 use core::ops::Range;
 
 use super::check::check;
-use super::{BACK, CLIPPED, Frame, Kind, Needed, ObjectState, Part, PrepareError, Primitive};
+use super::{Frame, Kind, Needed, ObjectState, Part, PrepareError, Primitive};
 use super::{Settings, Stats, Store, Traversal, UNSEEN};
-use crate::avx2::{Avx2, EIGHT, Seen};
-use crate::clip::{self, Corner};
-use crate::cull::{Facing, facing, facing_in_clip_space, sphere_outside};
+use crate::avx2::Avx2;
+use crate::clip::Corner;
+use crate::cull::sphere_outside;
 use crate::features;
 use crate::light::{Lighting, PlainLight};
 use crate::math::normalise_q14;
 use crate::mesh::{Mesh, Normals};
 use crate::scene::{Mode, Object, Scene};
-use crate::setup::{first_pixel, signed_area};
 use crate::shade::{FogWeights, modulate};
-use crate::transform::{CLIP, ClipMatrix, FAR, NEAR, Vertex, Viewport};
+use crate::transform::{ClipMatrix, Vertex, Viewport};
 
 /// Edges that may become one primitive.
 pub(super) const TOGETHER: usize = 32;
@@ -393,234 +393,10 @@ impl ObjectPass<'_> {
         }
     }
 
-    /// Cull: triangles that can be seen.
-    fn triangles(
-        &self,
-        range: Range<usize>,
-        vertices: &mut impl Transformed,
-        lighting: &Lighting,
-        kind: Kind,
-        list: &mut List,
-    ) -> Result<(), PrepareError> {
-        list.stats.triangles += range.len() as u32;
-        let Some(avx2) = self.avx2 else {
-            return self.one_by_one(range, vertices, lighting, kind, list);
-        };
-        let triangles = &self.object.mesh.triangles[range.clone()];
-        let one_sided = self.one_sided();
-        let size = [self.settings.width as i32, self.settings.height as i32];
-        let (groups, rest) = triangles.as_chunks::<EIGHT>();
-        let (mut next, mut seen) = (0, Seen::default());
-        while next < groups.len() {
-            let found =
-                avx2.facing(&groups[next..], vertices.vertices(), size, one_sided, &mut seen);
-            list.stats.back_facing += seen.turned;
-            list.stats.outside += seen.outside;
-            let Some(passed) = found else { break };
-            let group = next + passed;
-            let first = range.start + group * EIGHT;
-            next = group + 1;
-            if !seen.plain {
-                self.one_by_one(first..first + EIGHT, vertices, lighting, kind, list)?;
-                continue;
-            }
-            let mut rest = seen.kept;
-            while rest != 0 {
-                let k = rest.trailing_zeros() as usize & (EIGHT - 1);
-                rest &= rest - 1;
-                let rows = (seen.top[k] as i16, seen.bottom[k] as i16);
-                let facing = if seen.back >> k & 1 == 0 { Facing::Front } else { Facing::Back };
-                self.keep(first + k, kind as u8, rows, facing, lighting, list);
-                vertices.keep(groups[group][k]);
-            }
-        }
-        self.one_by_one(range.end - rest.len()..range.end, vertices, lighting, kind, list)
-    }
-
-    /// The same, one after another. Most are dropped here, so this loop holds nothing but the tests.
-    #[inline(never)]
-    fn one_by_one(
-        &self,
-        range: Range<usize>,
-        marked: &mut impl Transformed,
-        lighting: &Lighting,
-        kind: Kind,
-        list: &mut List,
-    ) -> Result<(), PrepareError> {
-        let one_sided = self.one_sided();
-        let mut triangles = range.clone().zip(&self.object.mesh.triangles[range.clone()]);
-        let mut kept = 0;
-        while let Some((index, &triangle, found)) =
-            next_facing(&mut triangles, marked.vertices(), one_sided)
-        {
-            kept += 1;
-            match found {
-                Found::Unclipped([a, b, c], facing) => {
-                    let low = [0, 1].map(|i: usize| a[i].min(b[i]).min(c[i]));
-                    let high = [0, 1].map(|i: usize| a[i].max(b[i]).max(c[i]));
-                    let Some(rows) = self.rows(low, high) else {
-                        list.stats.outside += 1;
-                        continue;
-                    };
-                    self.keep(index, kind as u8, rows, facing, lighting, list);
-                }
-                Found::Clipped => self.keep_clipped(index, marked.vertices(), kind, lighting, list),
-                Found::NoVertex => {
-                    return Err(PrepareError::Index { object: self.index, element: index });
-                }
-            }
-            marked.keep(triangle);
-        }
-        list.stats.back_facing += range.len() as u32 - kept;
-        Ok(())
-    }
-
-    /// The same tests for a triangle that the clip stage must cut.
-    #[inline(never)]
-    fn keep_clipped(
-        &self,
-        index: usize,
-        vertices: &[Vertex],
-        kind: Kind,
-        lighting: &Lighting,
-        list: &mut List,
-    ) {
-        let mesh = self.object.mesh;
-        let triangle = mesh.triangles[index];
-        let [a, b, c] = triangle.map(|i| vertices[i as usize].flags);
-        if a & b & c & (NEAR | FAR) != 0 {
-            list.stats.outside += 1;
-            return;
-        }
-        let corners = triangle.map(|c| self.clip.apply_one(mesh.positions[c as usize]));
-        let facing = facing_in_clip_space(&corners);
-        if facing == Facing::Edge || (facing == Facing::Back && self.one_sided()) {
-            list.stats.back_facing += 1;
-            return;
-        }
-        let Some(rows) = self.clipped_rows(&corners) else {
-            list.stats.outside += 1;
-            return;
-        };
-        list.stats.clipped += 1;
-        self.keep(index, kind as u8 | CLIPPED, rows, facing, lighting, list);
-    }
-
-    /// Lists a triangle, lit if it is lit as a whole.
-    #[inline]
-    fn keep(
-        &self,
-        index: usize,
-        tag: u8,
-        (top, bottom): (i16, i16),
-        facing: Facing,
-        lighting: &Lighting,
-        list: &mut List,
-    ) {
-        let back = facing == Facing::Back;
-        let rgb = if self.whole { self.face_colour(index, back, lighting) } else { [0; 3] };
-        let tag = tag | if back { BACK } else { 0 };
-        let object = self.index as u16;
-        list.push(Primitive { index: index as u32, top, bottom, object, rgb, tag });
-    }
-
-    /// The colour of a triangle that is lit as a whole: the mean of its corners' colours, lit at their centre.
-    #[inline(never)]
-    fn face_colour(&self, index: usize, back: bool, lighting: &Lighting) -> [u8; 3] {
-        let mesh = self.object.mesh;
-        let triangle = mesh.triangles[index];
-        let normal = match mesh.normals {
-            Normals::Face(normals) => normals[index],
-            _ => geometric_normal(mesh, triangle),
-        };
-        let normal = if back { normal.map(|v| v.saturating_neg()) } else { normal };
-        let mut colour = self.object.material.colour;
-        if features::VERTEX_COLOURS && !mesh.colours.is_empty() {
-            let colours = triangle.map(|c| surface_colour(self.object, c));
-            colour = [0, 1, 2].map(|k| {
-                let sum: u32 = colours.iter().map(|c| c[k] as u32).sum();
-                ((sum + 1) / 3) as u8
-            });
-        }
-        let mut centre = [0; 3];
-        if lighting.needs_position() {
-            let corners = triangle.map(|c| mesh.positions[c as usize]);
-            centre = [0, 1, 2].map(|k| {
-                let sum: i32 = corners.iter().map(|c| c[k] as i32).sum();
-                sum.div_euclid(3) as i16
-            });
-        }
-        lighting.lit_in_mesh(colour, normal, centre)
-    }
-
     fn corner(&self, index: u16) -> Corner {
         let clip = self.clip.apply_one(self.object.mesh.positions[index as usize]);
         Corner { clip, ..Corner::default() }
     }
-
-    /// Rows of the frame that a clipped triangle may touch.
-    fn clipped_rows(&self, triangle: &[[i32; 4]; 3]) -> Option<(i16, i16)> {
-        // In place: a corner is many words, and `map` moves it about.
-        let mut corners = [Corner::default(); 3];
-        for (corner, &clip) in corners.iter_mut().zip(triangle) {
-            corner.clip = clip;
-        }
-        let polygon = clip::triangle(corners);
-        let corners = polygon.corners();
-        if corners.is_empty() {
-            return None;
-        }
-        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
-        for corner in corners {
-            let v = self.viewport.project_one(&corner.clip);
-            low = [low[0].min(v.x), low[1].min(v.y)];
-            high = [high[0].max(v.x), high[1].max(v.y)];
-        }
-        self.rows(low, high)
-    }
-
-    /// Rows of the frame with pixel centres in a box (Q28.4); `None` when the box holds no centre.
-    #[inline(always)]
-    fn rows(&self, low: [i32; 2], high: [i32; 2]) -> Option<(i16, i16)> {
-        let (width, height) = (self.settings.width as i32, self.settings.height as i32);
-        let (x0, x1) = (first_pixel(low[0]).max(0), first_pixel(high[0]).min(width));
-        let (y0, y1) = (first_pixel(low[1]).max(0), first_pixel(high[1]).min(height));
-        (x0 < x1 && y0 < y1).then_some((y0 as i16, y1 as i16))
-    }
-}
-
-/// What a triangle that isn't dropped at first sight is.
-enum Found {
-    /// Its corners, Q28.4.
-    Unclipped([[i32; 2]; 3], Facing),
-    /// The clip stage must cut it.
-    Clipped,
-    /// One of its indices is of no vertex.
-    NoVertex,
-}
-
-/// The next of such triangles. Most are dropped here, so this loop holds nothing but the test.
-#[inline(always)]
-fn next_facing<'t>(
-    triangles: &mut impl Iterator<Item = (usize, &'t [u16; 3])>,
-    vertices: &[Vertex],
-    one_sided: bool,
-) -> Option<(usize, &'t [u16; 3], Found)> {
-    for (index, triangle) in triangles {
-        let [a, b, c] = triangle.map(|i| vertices.get(i as usize));
-        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
-            return Some((index, triangle, Found::NoVertex));
-        };
-        if (a.flags | b.flags | c.flags) & CLIP != 0 {
-            return Some((index, triangle, Found::Clipped));
-        }
-        let corners = [[a.x, a.y], [b.x, b.y], [c.x, c.y]];
-        let facing = facing(signed_area(&corners));
-        if facing == Facing::Front || (facing == Facing::Back && !one_sided) {
-            return Some((index, triangle, Found::Unclipped(corners, facing)));
-        }
-    }
-    None
 }
 
 /// The lights as an object sees them.
