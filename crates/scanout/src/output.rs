@@ -19,7 +19,7 @@
 use core::ops::Range;
 
 use crate::memory::fill;
-use crate::shade::{Tints, modulate, modulate565};
+use crate::shade::{Tint, modulate, modulate565};
 
 /// The 4 x 4 Bayer matrix, `BAYER[y & 3][x & 3]`, 0 - 15.
 pub const BAYER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
@@ -46,9 +46,9 @@ pub trait PixelFormat: Copy + 'static {
     fn modulate565(texel: u16, rgb: [u8; 3]) -> Self::Pixel {
         Self::encode(modulate(widen565(texel), rgb))
     }
-    /// The same where tables for the colour are at hand, if they are of this format.
+    /// The same where the colour is prepared, if it is for this format.
     #[inline(always)]
-    fn tint(_tints: &Tints, texel: u16, rgb: [u8; 3]) -> Self::Pixel {
+    fn tint(_: &impl Tint, texel: u16, rgb: [u8; 3]) -> Self::Pixel {
         Self::modulate565(texel, rgb)
     }
     /// Stores a pixel at column `x` of a row.
@@ -218,8 +218,8 @@ impl PixelFormat for Rgb565 {
         modulate565(texel, rgb)
     }
     #[inline(always)]
-    fn tint(tints: &Tints, texel: u16, _rgb: [u8; 3]) -> u16 {
-        tints.tint(texel)
+    fn tint(tint: &impl Tint, texel: u16, _rgb: [u8; 3]) -> u16 {
+        tint.tint(texel)
     }
     #[inline(always)]
     fn load(row: &[u16], x: usize) -> [u8; 3] {

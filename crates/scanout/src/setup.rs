@@ -167,7 +167,7 @@ impl Triangle {
 
     /// `v1 - v0` and `v2 - v0`, times the sign of the area.
     #[inline(always)]
-    fn sides(&self) -> [[i32; 2]; 2] {
+    pub(crate) fn sides(&self) -> [[i32; 2]; 2] {
         let ([from, a, b], sign) = (self.corners, -(self.turned as i32));
         [a, b].map(|to| [0, 1].map(|i: usize| ((to[i] - from[i]) ^ sign) - sign))
     }

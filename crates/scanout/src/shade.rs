@@ -22,50 +22,76 @@ pub fn modulate(a: [u8; 3], b: [u8; 3]) -> [u8; 3] {
     core::array::from_fn(|i| div255(a[i] as u32 * b[i] as u32))
 }
 
-/// The top `bits` bits of `a b / 255` to nearest: `floor((a b + 127) / (255 2^(8 - bits)))`, five or six of them, by a product.
-#[inline(always)]
-fn top(a: u32, b: u32, bits: u32) -> u32 {
-    // 32897 = ceil(2^26 / 2040): exact for what is below 2^16.
-    ((a * b + 127) * 32897) >> (31 - bits)
+/// A colour that multiplies RGB565 texels: the texel widened by bit replication, [`modulate`]d, cut to its top bits.
+pub trait Tint {
+    /// The texel times the colour.
+    fn tint(&self, texel: u16) -> u16;
 }
 
-/// An RGB565 texel times a colour as an RGB565 pixel: widened by bit replication, [`modulate`]d, cut to its top bits.
+/// A product a channel. `floor((a b + 127) / (255 2^(8 - bits)))`, the top five or six bits of `a b / 255` to nearest, is taken by the
+/// reciprocal 32897 = ceil(2^26 / 2040), which is exact for what is below 2^16.
+#[derive(Clone, Copy, Debug)]
+pub struct Factors([u32; 3]);
+
+impl Factors {
+    const RECIPROCAL: u32 = 32897;
+
+    /// Of a colour.
+    #[inline(always)]
+    pub fn new(rgb: [u8; 3]) -> Factors {
+        Factors(rgb.map(|c| c as u32 * Factors::RECIPROCAL))
+    }
+}
+
+impl Tint for Factors {
+    #[inline(always)]
+    fn tint(&self, texel: u16) -> u16 {
+        let texel = texel as u32;
+        let (r, g, b) = (texel >> 11, (texel >> 5) & 63, texel & 31);
+        let top = |wide: u32, channel: usize, bits: u32| {
+            (wide * self.0[channel] + 127 * Factors::RECIPROCAL) >> (31 - bits)
+        };
+        let r = top((r * 33) >> 2, 0, 5);
+        let g = top((g * 65) >> 4, 1, 6);
+        let b = top((b * 33) >> 2, 2, 5);
+        ((r << 11) | (g << 5) | b) as u16
+    }
+}
+
+/// An RGB565 texel times a colour.
 #[inline(always)]
 pub fn modulate565(texel: u16, rgb: [u8; 3]) -> u16 {
-    let texel = texel as u32;
-    let (r, g, b) = (texel >> 11, (texel >> 5) & 63, texel & 31);
-    let r = top((r * 33) >> 2, rgb[0] as u32, 5);
-    let g = top((g * 65) >> 4, rgb[1] as u32, 6);
-    let b = top((b * 33) >> 2, rgb[2] as u32, 5);
-    ((r << 11) | (g << 5) | b) as u16
+    Factors::new(rgb).tint(texel)
 }
 
-/// [`modulate565`] by one colour for many texels: a table a channel, 256 bytes.
+/// A table a channel, 256 bytes: for one colour and many texels.
 #[derive(Clone, Copy, Debug)]
-pub struct Tints {
+pub struct Tables {
     red: [u16; 32],
     green: [u16; 64],
     blue: [u16; 32],
 }
 
-impl Tints {
+impl Tables {
     /// Cost: 128 products.
     #[inline(never)]
-    pub fn new(rgb: [u8; 3]) -> Tints {
-        let mut tints = Tints { red: [0; 32], green: [0; 64], blue: [0; 32] };
-        for (i, (red, blue)) in (0..).zip(tints.red.iter_mut().zip(&mut tints.blue)) {
-            *red = modulate565(i << 11, rgb);
-            *blue = modulate565(i, rgb);
+    pub fn new(rgb: [u8; 3]) -> Tables {
+        let factors = Factors::new(rgb);
+        let mut tables = Tables { red: [0; 32], green: [0; 64], blue: [0; 32] };
+        for (i, (red, blue)) in (0..).zip(tables.red.iter_mut().zip(&mut tables.blue)) {
+            *red = factors.tint(i << 11);
+            *blue = factors.tint(i);
         }
-        for (i, green) in (0..).zip(&mut tints.green) {
-            *green = modulate565(i << 5, rgb);
+        for (i, green) in (0..).zip(&mut tables.green) {
+            *green = factors.tint(i << 5);
         }
-        tints
+        tables
     }
+}
 
-    /// The texel times the colour.
+impl Tint for Tables {
     #[inline(always)]
-    pub fn tint(&self, texel: u16) -> u16 {
+    fn tint(&self, texel: u16) -> u16 {
         let [r, g, b] = [texel >> 11, (texel >> 5) & 63, texel & 31].map(usize::from);
         self.red[r] | self.green[g] | self.blue[b]
     }
@@ -155,9 +181,9 @@ mod tests {
                 assert_eq!(modulate565(texel, [c; 3]), expected, "{texel:#x} {c}");
             }
         }
-        let tints = Tints::new([9, 99, 199]);
+        let tables = Tables::new([9, 99, 199]);
         for texel in 0..=u16::MAX {
-            assert_eq!(tints.tint(texel), modulate565(texel, [9, 99, 199]), "{texel:#x}");
+            assert_eq!(tables.tint(texel), modulate565(texel, [9, 99, 199]), "{texel:#x}");
         }
         let expected = Rgb565::encode(modulate(widen565(0xabcd), [9, 99, 199]));
         assert_eq!(modulate565(0xabcd, [9, 99, 199]), expected);

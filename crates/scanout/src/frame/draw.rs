@@ -6,7 +6,7 @@ mod alike;
 
 use core::ops::Range;
 
-use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walked};
+use super::fragment::{ByRows, Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walked};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
 use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
@@ -334,7 +334,8 @@ impl<'f> Painter<'f> {
                     Some(sampler)
                         if target.walks() && !(features::FOG && self.frame.fog.is_some()) =>
                     {
-                        target.fill(t, z, &Walked::new(t, shader, sampler, uv, q));
+                        let way = ByRows::new(t, sampler.size, uv, q);
+                        target.fill(t, z, &Walked { inner: shader, sampler, way });
                     }
                     Some(sampler) => {
                         self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);

@@ -4,14 +4,18 @@
 //! adds a gradient modulo 2^32, which is exactly the plane's value at the next pixel; a row always begins from the plane,
 //! so nothing remembers where it has been.
 
+use core::cell::OnceCell;
+
 use crate::interpolate::Plane;
 use crate::lanes::{LANES, U16x8, U32x8};
 use crate::light::Lighting;
 use crate::math::normalise_q14;
 use crate::output::{PixelFormat, widen565};
 use crate::setup::Triangle;
-use crate::shade::{FogWeights, Tints, blend, modulate};
-use crate::texture::{Along, Block, Perspective, Repeat565, Sampler, integer_q, reciprocal};
+use crate::shade::{FogWeights, Tint, blend, modulate};
+use crate::texture::{
+    Across, Along, Block, Perspective, Repeat565, Sampler, integer_q, reciprocal,
+};
 
 /// Colours of fragments.
 pub(super) trait Shader {
@@ -103,21 +107,16 @@ impl Shader for Flat {
     }
 }
 
-/// One colour that tints texels by tables, for triangles of many pixels.
-pub(super) struct Tabled {
-    rgb: [u8; 3],
-    tints: Tints,
+/// One colour that is prepared to tint texels.
+pub(super) struct Tinted<T> {
+    pub rgb: [u8; 3],
+    pub tint: T,
 }
 
-impl Tabled {
-    pub(super) fn new(rgb: [u8; 3]) -> Tabled {
-        Tabled { rgb, tints: Tints::new(rgb) }
-    }
-}
-
-impl Shader for Tabled {
+impl<T: Tint> Shader for Tinted<T> {
     type Pixel = ();
     type Ramps = ();
+    const SIDE_BY_SIDE: bool = true;
 
     #[inline(always)]
     fn at(&self, _x: i32, _y: i32) {}
@@ -131,9 +130,14 @@ impl Shader for Tabled {
     }
     #[inline(always)]
     fn tint<F: PixelFormat>(&self, _: &(), texel: u16) -> F::Pixel {
-        F::tint(&self.tints, texel, self.rgb)
+        F::tint(&self.tint, texel, self.rgb)
     }
+    #[inline(always)]
     fn ramps(&self) {}
+    #[inline(always)]
+    fn side_by_side(&self, _: &(), _: &(), _pass: u32) -> [U16x8; 3] {
+        self.rgb.map(|c| U16x8::splat(c as u16))
+    }
 }
 
 /// Colours interpolated linearly on the screen; half a level is added to the planes, so that the whole levels of their values
@@ -278,66 +282,130 @@ impl<S: Shader, T: Sampler> Shader for Textured<S, T> {
     }
 }
 
-/// [`Textured`] for runs, a pixel after another: texels come [`Along`] the row where they are certain.
-pub(super) struct Walked<'a, S> {
-    inner: S,
-    sampler: Repeat565<'a>,
-    way: Way,
+/// [`Textured`] for runs, a pixel after another: texels come by a [`Way`] where they are certain.
+pub(super) struct Walked<'a, S, W> {
+    pub inner: S,
+    pub sampler: Repeat565<'a>,
+    pub way: W,
 }
 
 /// A triangle's way through a plain texture.
-struct Way {
+pub(super) trait Way {
+    /// Runs are drawn in blocks.
+    const IN_BLOCKS: bool = true;
+    /// How many pixels a block may have.
+    fn longest(&self) -> i32;
+    /// The `count` pixels from (x, y) on.
+    fn block(&self, x: i32, y: i32, count: u32) -> Block;
+    /// The texel by the definition.
+    fn texel(&self, x: i32, y: i32) -> Option<[u32; 2]>;
+}
+
+/// [`Along`] the rows.
+pub(super) struct ByRows {
     setup: Perspective,
     q: Plane,
     along: Along,
+    size: [u64; 2],
 }
 
-impl Way {
+impl ByRows {
+    /// From three corners' texture coordinates and 1/w.
     // Once a triangle: where flash is little, a call instead of a copy for each shader.
     #[cfg_attr(target_arch = "x86_64", inline(always))]
     #[cfg_attr(not(target_arch = "x86_64"), inline(never))]
-    fn new(t: &Triangle, sampler: &Repeat565, uv: [[i32; 2]; 3], q: [u32; 3]) -> Way {
-        let (setup, fit) = sampler.setup_and_fit(t, uv, q);
+    pub(super) fn new(t: &Triangle, size: [u64; 2], uv: [[i32; 2]; 3], q: [u32; 3]) -> ByRows {
+        let (setup, fit) = Perspective::of_repeat(t, uv, q, size);
         let ([plane], also) = t.planes_and_fit([q.map(|q| q << 8)]);
-        let along = Along::new(&setup, &plane, q, sampler.sides(), fit && also);
-        Way { setup, q: plane, along }
+        let along = Along::new(&setup, &plane, q, size.map(|size| size as u32), fit && also);
+        ByRows { setup, q: plane, along, size }
     }
 
-    /// The texel by the definition.
-    #[cold]
-    #[inline(never)]
-    fn defined(&self, size: [u64; 2], x: i32, y: i32) -> Option<[u32; 2]> {
+    #[inline(always)]
+    fn one(&self, x: i32, y: i32) -> Block {
         let [s, t] = &self.setup.st;
-        let st = [s.at(x, y), t.at(x, y)];
-        Block::one(&self.setup, size, self.q.at(x, y), st).texel()
+        Block::one(&self.setup, self.size, self.q.at(x, y), [s.at(x, y), t.at(x, y)])
     }
 }
 
-impl<'a, S: Shader> Walked<'a, S> {
-    /// From three corners' texture coordinates and 1/w.
+impl Way for ByRows {
+    #[inline(always)]
+    fn longest(&self) -> i32 {
+        self.along.length() as i32
+    }
+    #[inline(always)]
+    fn block(&self, x: i32, y: i32, count: u32) -> Block {
+        // A block costs as much as two pixels of the definition.
+        if count < 2 {
+            return self.one(x, y);
+        }
+        let [s, t] = &self.setup.st;
+        self.along.block(self.q.at(x, y), [s.at(x, y), t.at(x, y)], count)
+    }
+    #[cold]
+    #[inline(never)]
+    fn texel(&self, x: i32, y: i32) -> Option<[u32; 2]> {
+        self.one(x, y).texel()
+    }
+}
+
+/// [`Across`] the triangle.
+pub(super) struct BySteps<'a> {
+    across: &'a Across,
+    triangle: &'a Triangle,
+    uv: [[i32; 2]; 3],
+    q: [u32; 3],
+    size: [u64; 2],
+    /// Made when a texel is uncertain.
+    rows: OnceCell<ByRows>,
+}
+
+impl<'a> BySteps<'a> {
+    /// Along a triangle's way.
     #[inline(always)]
     pub(super) fn new(
-        t: &Triangle,
-        inner: S,
-        sampler: Repeat565<'a>,
+        across: &'a Across,
+        triangle: &'a Triangle,
+        size: [u64; 2],
         uv: [[i32; 2]; 3],
         q: [u32; 3],
-    ) -> Self {
-        Walked { inner, way: Way::new(t, &sampler, uv, q), sampler }
+    ) -> BySteps<'a> {
+        BySteps { across, triangle, uv, q, size, rows: OnceCell::new() }
     }
+}
+
+impl Way for BySteps<'_> {
+    const IN_BLOCKS: bool = false;
 
     #[inline(always)]
+    fn longest(&self) -> i32 {
+        i32::MAX
+    }
+    #[inline(always)]
+    fn block(&self, x: i32, y: i32, count: u32) -> Block {
+        self.across.block(x, y, count)
+    }
+    #[cold]
+    #[inline(never)]
+    fn texel(&self, x: i32, y: i32) -> Option<[u32; 2]> {
+        let rows = self.rows.get_or_init(|| ByRows::new(self.triangle, self.size, self.uv, self.q));
+        rows.texel(x, y)
+    }
+}
+
+impl<S: Shader, W: Way> Walked<'_, S, W> {
+    #[inline(always)]
     fn texel(&self, block: &Block, x: i32, y: i32) -> u16 {
-        let texel = block.texel().or_else(|| self.way.defined(self.sampler.size, x, y));
+        let texel = block.texel().or_else(|| self.way.texel(x, y));
         self.sampler.inside(texel.unwrap_or_default())
     }
 }
 
-impl<S: Shader> Shader for Walked<'_, S> {
+impl<S: Shader, W: Way> Shader for Walked<'_, S, W> {
     /// The inner shader's, the block and the place.
     type Pixel = (S::Pixel, Block, i32, i32);
     type Ramps = ();
-    const IN_BLOCKS: bool = true;
+    const IN_BLOCKS: bool = W::IN_BLOCKS;
 
     #[inline(always)]
     fn at(&self, x: i32, y: i32) -> Self::Pixel {
@@ -345,20 +413,12 @@ impl<S: Shader> Shader for Walked<'_, S> {
     }
     #[inline(always)]
     fn begin(&self, x: i32, y: i32, count: i32) -> Self::Pixel {
-        let [s, t] = &self.way.setup.st;
-        let st = [s.at(x, y), t.at(x, y)];
-        let q = self.way.q.at(x, y);
-        // A block costs as much as two pixels of the definition.
-        let block = if count < 2 {
-            Block::one(&self.way.setup, self.sampler.size, q, st)
-        } else {
-            self.way.along.block(q, st, count as u32)
-        };
+        let block = self.way.block(x, y, count as u32);
         (self.inner.at(x, y), block, x, y)
     }
     #[inline(always)]
     fn longest(&self) -> i32 {
-        self.way.along.length() as i32
+        self.way.longest()
     }
     #[inline(always)]
     fn step(&self, (inner, mut block, x, y): Self::Pixel, count: u32) -> Self::Pixel {

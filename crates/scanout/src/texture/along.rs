@@ -51,16 +51,16 @@ pub struct Along {
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
     /// The coordinates less the margin.
-    at: [u32; 2],
-    step: [u32; 2],
-    bend: [u32; 2],
+    pub(super) at: [u32; 2],
+    pub(super) step: [u32; 2],
+    pub(super) bend: [u32; 2],
     /// A texel is certain where both fractions lie below: 2^16 less twice the margin.
-    limit: u32,
+    pub(super) limit: u32,
 }
 
 impl Block {
     /// Nothing is certain.
-    const NONE: Block = Block { at: [0; 2], step: [0; 2], bend: [0; 2], limit: 0 };
+    pub(super) const NONE: Block = Block { at: [0; 2], step: [0; 2], bend: [0; 2], limit: 0 };
 
     /// A single pixel, by the definition: values of the planes as for [`Along::block`].
     #[inline(never)]

@@ -22,10 +22,12 @@
 //! `T_l = cbrt(K / 2^(2l - 1))`. One comparison a level instead of derivatives a pixel. What it will not do: anisotropic
 //! or trilinear filtering.
 
+mod across;
 mod along;
 mod palette;
 mod perspective;
 
+pub use across::Across;
 pub use along::{Along, Block};
 pub use palette::RepeatPalette;
 pub use perspective::{

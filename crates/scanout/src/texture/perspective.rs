@@ -109,6 +109,18 @@ impl Perspective {
         let (st, fit) = t.planes_and_fit(values);
         (Perspective { st, shift }, fit)
     }
+
+    /// Of a texture of `size` that repeats, and whether all changes a column fit 32 bits.
+    #[inline(always)]
+    pub(crate) fn of_repeat(
+        t: &Triangle,
+        uv: [[i32; 2]; 3],
+        q: [u32; 3],
+        size: [u64; 2],
+    ) -> (Perspective, bool) {
+        let (local, _) = local(uv, size.map(|size| size as u32));
+        Perspective::new(t, &local, q)
+    }
 }
 
 impl<'a> TextureSetup<'a> {
@@ -217,14 +229,7 @@ impl<'a> Repeat565<'a> {
         uv: [[i32; 2]; 3],
         q: [u32; 3],
     ) -> (Perspective, bool) {
-        let (local, _) = local(uv, self.size.map(|size| size as u32));
-        Perspective::new(t, &local, q)
-    }
-
-    /// Width and height.
-    #[inline(always)]
-    pub(crate) fn sides(&self) -> [u32; 2] {
-        self.size.map(|size| size as u32)
+        Perspective::of_repeat(t, uv, q, self.size)
     }
 
     /// A texel inside the texture.

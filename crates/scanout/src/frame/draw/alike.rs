@@ -6,7 +6,7 @@
 //! | eight at a time | AVX2, RGB565 |
 //! | one by one | elsewhere; formats as in [`setup`](crate::setup) and [`interpolate`](crate::interpolate) |
 
-use super::super::fragment::{Flat, Gouraud, Tabled, Textured, Walked};
+use super::super::fragment::{ByRows, BySteps, Flat, Gouraud, Shader, Textured, Tinted, Walked};
 use super::super::target::Target;
 use super::super::{BACK, Frame, Primitive};
 use crate::avx2::{EIGHT, Source, Triangles};
@@ -17,7 +17,8 @@ use crate::mesh::Normals;
 use crate::output::PixelFormat;
 use crate::scene::Mode;
 use crate::setup::Triangle;
-use crate::texture::Repeat565;
+use crate::shade::{Factors, Tables};
+use crate::texture::{Across, Repeat565};
 use crate::transform::{Vertex, common_inverse_w};
 
 impl<'a> Frame<'a> {
@@ -84,23 +85,17 @@ impl<'a> Frame<'a> {
                     if target.tabled(t) {
                         return draw_tabled(target, t, v, primitive.rgb, sampler, uv, q);
                     }
-                    let (z, inner) = (t.plane(v.map(|v| v.z)), Flat(primitive.rgb));
-                    if target.walks() {
-                        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
-                    } else {
-                        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
-                    }
+                    let rgb = primitive.rgb;
+                    let (z, inner) =
+                        (t.plane(v.map(|v| v.z)), Tinted { rgb, tint: Factors::new(rgb) });
+                    walk(target, t, &z, inner, sampler, uv, q);
                 });
             }
             (true, Some(sampler)) => {
                 self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
                     let (z, inner) = shaded(t, v);
                     let (uv, q) = (uv(primitive.index as usize), q(v));
-                    if target.walks() {
-                        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
-                    } else {
-                        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
-                    }
+                    walk(target, t, &z, inner, sampler, uv, q);
                 });
             }
         }
@@ -177,6 +172,43 @@ impl<'a> Frame<'a> {
     }
 }
 
+/// Draws a textured triangle, by the way that is the shortest.
+#[inline(always)]
+fn walk<F: PixelFormat, S: Shader>(
+    target: &mut Target<F>,
+    t: &Triangle,
+    z: &Plane,
+    inner: S,
+    sampler: Repeat565,
+    uv: [[i32; 2]; 3],
+    q: [u32; 3],
+) {
+    if !target.walks() {
+        return target.fill(t, z, &Textured::new(t, inner, sampler, uv, q));
+    }
+    match &Across::new(t, uv, q, sampler.size.map(|size| size as u32)) {
+        Some(across) => {
+            let way = BySteps::new(across, t, sampler.size, uv, q);
+            target.fill(t, z, &Walked { inner, sampler, way });
+        }
+        None => by_rows(target, t, z, inner, sampler, uv, q),
+    }
+}
+
+#[inline(never)]
+fn by_rows<F: PixelFormat, S: Shader>(
+    target: &mut Target<F>,
+    t: &Triangle,
+    z: &Plane,
+    inner: S,
+    sampler: Repeat565,
+    uv: [[i32; 2]; 3],
+    q: [u32; 3],
+) {
+    let way = ByRows::new(t, sampler.size, uv, q);
+    target.fill(t, z, &Walked { inner, sampler, way });
+}
+
 /// Draws a textured triangle of one colour and many pixels.
 #[inline(never)]
 fn draw_tabled<F: PixelFormat>(
@@ -188,9 +220,9 @@ fn draw_tabled<F: PixelFormat>(
     uv: [[i32; 2]; 3],
     q: [u32; 3],
 ) {
-    let (z, inner) = (t.plane(v.map(|v| v.z)), Tabled::new(rgb));
+    let (z, inner) = (t.plane(v.map(|v| v.z)), Tinted { rgb, tint: Tables::new(rgb) });
     if target.walks() {
-        target.fill(t, &z, &Walked::new(t, inner, sampler, uv, q));
+        by_rows(target, t, &z, inner, sampler, uv, q);
     } else {
         target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
     }
