@@ -351,27 +351,13 @@ impl Way for ByRows {
 
 /// [`Across`] the triangle.
 pub(super) struct BySteps<'a> {
-    across: &'a Across,
-    triangle: &'a Triangle,
-    uv: [[i32; 2]; 3],
-    q: [u32; 3],
-    size: [u64; 2],
+    pub across: &'a Across,
+    pub triangle: &'a Triangle,
+    pub uv: [[i32; 2]; 3],
+    pub q: [u32; 3],
+    pub size: [u64; 2],
     /// Made when a texel is uncertain.
-    rows: OnceCell<ByRows>,
-}
-
-impl<'a> BySteps<'a> {
-    /// Along a triangle's way.
-    #[inline(always)]
-    pub(super) fn new(
-        across: &'a Across,
-        triangle: &'a Triangle,
-        size: [u64; 2],
-        uv: [[i32; 2]; 3],
-        q: [u32; 3],
-    ) -> BySteps<'a> {
-        BySteps { across, triangle, uv, q, size, rows: OnceCell::new() }
-    }
+    pub rows: &'a OnceCell<ByRows>,
 }
 
 impl Way for BySteps<'_> {
@@ -388,8 +374,10 @@ impl Way for BySteps<'_> {
     #[cold]
     #[inline(never)]
     fn texel(&self, x: i32, y: i32) -> Option<[u32; 2]> {
-        let rows = self.rows.get_or_init(|| ByRows::new(self.triangle, self.size, self.uv, self.q));
-        rows.texel(x, y)
+        self.across.closer(x, y).or_else(|| {
+            let rows = || ByRows::new(self.triangle, self.size, self.uv, self.q);
+            self.rows.get_or_init(rows).texel(x, y)
+        })
     }
 }
 

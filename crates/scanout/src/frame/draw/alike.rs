@@ -6,6 +6,8 @@
 //! | eight at a time | AVX2, RGB565 |
 //! | one by one | elsewhere; formats as in [`setup`](crate::setup) and [`interpolate`](crate::interpolate) |
 
+use core::cell::OnceCell;
+
 use super::super::fragment::{ByRows, BySteps, Flat, Gouraud, Shader, Textured, Tinted, Walked};
 use super::super::target::Target;
 use super::super::{BACK, Frame, Primitive};
@@ -188,7 +190,8 @@ fn walk<F: PixelFormat, S: Shader>(
     }
     match &Across::new(t, uv, q, sampler.size.map(|size| size as u32)) {
         Some(across) => {
-            let way = BySteps::new(across, t, sampler.size, uv, q);
+            let (size, rows) = (sampler.size, &OnceCell::new());
+            let way = BySteps { across, triangle: t, uv, q, size, rows };
             target.fill(t, z, &Walked { inner, sampler, way });
         }
         None => by_rows(target, t, z, inner, sampler, uv, q),
