@@ -27,6 +27,8 @@ pub(super) trait Shader {
     const CONSTANT: bool = false;
     /// Runs are drawn in blocks.
     const IN_BLOCKS: bool = false;
+    /// Triangles' boxes are at most 32 pixels wide and high.
+    const SMALL: bool = false;
     /// Can give eight colours at a time.
     const SIDE_BY_SIDE: bool = false;
 
@@ -291,8 +293,8 @@ pub(super) struct Walked<'a, S, W> {
 
 /// A triangle's way through a plain texture.
 pub(super) trait Way {
-    /// Runs are drawn in blocks.
-    const IN_BLOCKS: bool = true;
+    /// Only small triangles go this way, and each run in one block.
+    const SMALL: bool = false;
     /// How many pixels a block may have.
     fn longest(&self) -> i32;
     /// The `count` pixels from (x, y) on.
@@ -361,7 +363,7 @@ pub(super) struct BySteps<'a> {
 }
 
 impl Way for BySteps<'_> {
-    const IN_BLOCKS: bool = false;
+    const SMALL: bool = true;
 
     #[inline(always)]
     fn longest(&self) -> i32 {
@@ -393,7 +395,8 @@ impl<S: Shader, W: Way> Shader for Walked<'_, S, W> {
     /// The inner shader's, the block and the place.
     type Pixel = (S::Pixel, Block, i32, i32);
     type Ramps = ();
-    const IN_BLOCKS: bool = W::IN_BLOCKS;
+    const IN_BLOCKS: bool = true;
+    const SMALL: bool = W::SMALL;
 
     #[inline(always)]
     fn at(&self, x: i32, y: i32) -> Self::Pixel {

@@ -13,6 +13,7 @@ use crate::math::NARROW;
 use crate::memory;
 use crate::output::{PixelFormat, Rgb565};
 use crate::raster::line::{ClipRect, Field, LineEnd, fill_cells};
+use crate::raster::small;
 use crate::raster::triangle::{Run, Runs, tiles};
 use crate::scene::Background;
 use crate::setup::{Edge, Triangle};
@@ -150,18 +151,17 @@ impl<F: PixelFormat> Target<'_, F> {
     /// A triangle's covered pixels in some columns, row by row.
     #[inline(always)]
     fn runs<'t>(&self, t: &'t Triangle, columns: Range<i32>) -> Runs<'t> {
-        Runs::either(
-            t,
-            self.rows.clone(),
-            columns,
-            features::TILES && self.traversal == Traversal::Tiles,
-        )
+        Runs::either(t, self.rows.clone(), columns, self.by_tiles())
+    }
+
+    fn by_tiles(&self) -> bool {
+        features::TILES && self.traversal == Traversal::Tiles
     }
 
     /// Whether texels are better found along the row: where 64-bit products and divisions are dear, and tile by tile, so that
     /// every machine can prove it.
     pub(super) fn walks(&self) -> bool {
-        NARROW || (features::TILES && self.traversal == Traversal::Tiles)
+        NARROW || self.by_tiles()
     }
 
     /// Whether a triangle's pixels, drawn one after another here, are enough to make tables for their tint.
@@ -223,6 +223,11 @@ impl<F: PixelFormat> Target<'_, F> {
         let constant =
             F::encode(if S::CONSTANT { shader.colour(&shader.at(0, 0)) } else { [0; 3] });
         let z = depth::biased(z);
+        if S::SMALL && !self.by_tiles() {
+            return small::for_each(t, self.rows.clone(), columns, |Run { y, x0, x1 }| {
+                self.fill_block::<S, DITHER>(&z, shader, constant, y, x0..x1)
+            });
+        }
         self.runs(t, columns).for_each(|Run { y, x0, x1 }| {
             if !S::IN_BLOCKS {
                 return self.fill_block::<S, DITHER>(&z, shader, constant, y, x0..x1);

@@ -2,5 +2,6 @@
 
 pub mod line;
 pub mod point;
+pub(crate) mod small;
 pub mod smooth_line;
 pub mod triangle;

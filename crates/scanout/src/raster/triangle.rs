@@ -290,6 +290,7 @@ fn ends(t: &Triangle, y: i32, [mut x0, mut x1]: [i32; 2], way: Way) -> [i32; 2] 
 mod tests {
     use super::*;
     extern crate std;
+    use crate::raster::small;
     use std::string::String;
     use std::vec;
     use std::vec::Vec;
@@ -309,6 +310,18 @@ mod tests {
             Run { y: y as usize, x0, x1 }
         };
         (top..bottom).map(next).filter(|run| run.x0 < run.x1).collect()
+    };
+    const SMALL: Traversal = |t, rows, width| {
+        let extent = |i: usize| {
+            let [a, b, c] = t.corners.map(|v| v[i]);
+            a.max(b).max(c) - a.min(b).min(c)
+        };
+        if extent(0).max(extent(1)) > small::LARGEST {
+            return SPANS(t, rows, width);
+        }
+        let mut all = vec![];
+        small::for_each(t, rows, 0..width, |run| all.push(run));
+        all
     };
     const TILES: Traversal = |t, rows, width| {
         tiles(t, width)
@@ -369,7 +382,43 @@ mod tests {
             assert!(count(v, 40, SPANS) == expected, "spans of {v:?}");
             assert!(count(v, 40, TILES) == expected, "tiles of {v:?}");
             assert!(count(v, 40, STEPS) == expected, "steps of {v:?}");
+            assert!(count(v, 40, SMALL) == expected, "small: {v:?}");
         }
+    }
+
+    /// Every edge between corners of a small box, so that every place there can be is met.
+    #[test]
+    fn small_triangles_are_exact() {
+        let mut seed = 3u64;
+        let mut random = |n: i32| {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 33) as i32 % n
+        };
+        let mut near = 0;
+        for i in 0..40_000 {
+            let from = [random(16) + 80, random(16) + 80];
+            let size = [64, 200, small::LARGEST + 1][i % 3];
+            let mut v = [(); 3].map(|()| from.map(|v| v + random(size)));
+            if i % 2 == 0 {
+                // As high as can be.
+                (v[0][1], v[1][1]) = (from[1], from[1] + small::LARGEST);
+            }
+            let Some(t) = Triangle::new(v) else { continue };
+            let (min, max) = (t.min(), t.max());
+            small::for_each(&t, 0..100, 0..100, |Run { y, x0, x1 }| {
+                let [x0, x1, y] = [x0, x1, y].map(|v| v as i32);
+                let inside = |x: i32| t.covers(x, y);
+                assert!(inside(x0) && inside(x1 - 1), "{v:?} row {y}: {x0}..{x1}");
+                assert!(!inside(x0 - 1) && !inside(x1), "{v:?} row {y}: {x0}..{x1}");
+                near += t.edges().iter().any(|e| e.at(x0, y) == 0) as u32;
+            });
+            let mut rows = 0;
+            small::for_each(&t, 0..100, 0..100, |_| rows += 1);
+            let expected =
+                (min[1]..max[1]).filter(|&y| (min[0]..max[0]).any(|x| t.covers(x, y))).count();
+            assert_eq!(rows, expected, "{v:?}");
+        }
+        assert!(near > 1000, "{near}");
     }
 
     /// Rows at whose centre an edge passes closest by a pixel's: there the last bit decides.

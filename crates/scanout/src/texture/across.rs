@@ -28,10 +28,8 @@
 
 use super::along::Block;
 use super::perspective::reciprocal;
+use crate::raster::small::LARGEST;
 use crate::setup::Triangle;
-
-/// The widest and highest triangle, 1/16 pixel.
-const LARGEST: i32 = 32 * 16;
 
 /// The largest margin that is worth its while: pixels without a certain texel cost as much as ten others.
 const WIDEST: u32 = 1 << 10;
