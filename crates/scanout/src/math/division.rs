@@ -38,6 +38,41 @@ pub(crate) fn reciprocal_by_seeds(q: u32) -> u32 {
     quotient
 }
 
+/// `floor(n / d)` for `d` from 1 below 2^24, without a division: digits of eight bits, guessed from the same seeds.
+///
+/// The divisor is shifted up to 24 bits, and so is what remains of each digit; so a dividend, below `256 d`, has at most 32.
+#[inline(never)]
+fn by_seeds(n: u64, d: u32) -> u64 {
+    let s = d.leading_zeros() - 8;
+    let d = d << s;
+    let seed = RECIP_SEED[(d >> 15) as usize & 255] as u32;
+    let mut rest = 0u32;
+    let mut digits = |word: u32| {
+        let (mut quotient, mut shift) = (0u32, 32);
+        // Bytes that are zero have the digit zero.
+        while rest == 0 && shift != 0 && word >> (shift - 8) == 0 {
+            shift -= 8;
+        }
+        while shift != 0 {
+            shift -= 8;
+            let dividend = (rest << 8) + (((word >> shift) & 255) << s);
+            let mut digit = ((dividend >> 16) * seed) >> 23;
+            rest = dividend.wrapping_sub(digit.wrapping_mul(d));
+            if rest as i32 >> 24 < 0 {
+                rest = rest.wrapping_add(d);
+                digit -= 1;
+            } else if rest >= d {
+                rest -= d;
+                digit += 1;
+            }
+            quotient = (quotient << 8) + digit;
+        }
+        quotient
+    };
+    let high = digits((n >> 32) as u32);
+    (high as u64) << 32 | digits(n as u32) as u64
+}
+
 /// `floor(n / d)` for `d` from 1 below 2^16: 32 bits, then 16 and 16.
 #[inline]
 fn by_digits(n: u64, d: u32) -> u64 {
@@ -61,7 +96,11 @@ pub(crate) fn floor(n: i64, d: i64) -> i64 {
 
 #[inline(never)]
 fn narrow_quotient(n: u64, d: u64) -> u64 {
-    if d < 1 << 16 { by_digits(n, d as u32) } else { n / d }
+    match d {
+        ..0x100_0000 if NO_DIVISION => by_seeds(n, d as u32),
+        ..0x1_0000 => by_digits(n, d as u32),
+        _ => n / d,
+    }
 }
 
 #[cfg(test)]
@@ -87,6 +126,8 @@ mod tests {
             let n = ((random.i32() as i64) << 32 | random.i32() as u32 as i64) >> (i % 60);
             let d = ((random.i32() as u32 >> (i % 31)) as i64).max(1);
             assert_eq!(narrow_quotient(n as u64, d as u64), n as u64 / d as u64, "{n} {d}");
+            let few = (d as u32 >> 8).max(1);
+            assert_eq!(by_seeds(n as u64, few), n as u64 / few as u64, "{n} {few}");
             assert_eq!(floor(n, d), n.div_euclid(d), "{n} {d}");
         }
     }
