@@ -1,7 +1,8 @@
 //! Division for machines of 32 bits, where one of 64 bits is a call of hundreds of instructions.
 //!
 //! A divisor below 2^16 leaves remainders of 16 bits, so the dividend can be taken 16 bits at a time by 32-bit divisions, as by
-//! hand. Elsewhere the machine's own division is as good.
+//! hand; without any division, digits of eight bits are guessed from the seeds of reciprocals. Elsewhere the machine's own division
+//! is as good.
 
 use super::recip::RECIP_SEED;
 
