@@ -8,6 +8,7 @@ use crate::normals::{corner_normals, to_q14, unit};
 use crate::raw::{NONE, Raw};
 use crate::triangulate::triangulate;
 use scanout::mesh::Sphere;
+use scanout::mesh_clusters::clusters;
 use std::collections::{HashMap, HashSet};
 
 /// Greatest magnitude of a position: a small margin remains to 32767.
@@ -216,7 +217,9 @@ impl Parts<'_> {
             builder.mesh.uvs = Vec::new();
             builder.mesh.uv_triangles = Vec::new();
         }
-        builder.mesh.bounds = Some(bounding_sphere(&builder.mesh.positions));
+        let mesh = &mut builder.mesh;
+        mesh.bounds = Some(bounding_sphere(&mesh.positions));
+        mesh.clusters = clusters(&mesh.positions, &mesh.triangles).collect();
         let material = self.raw.materials.get(material).cloned().unwrap_or_default();
         let count = self.names.entry(material.name.clone()).or_insert(0);
         *count += 1;

@@ -1,7 +1,7 @@
 //! What the loader hands back: owned meshes, materials and images, and how they lie in the world.
 
 use crate::error::Warning;
-use scanout::mesh::{Mesh, Normals, Sphere};
+use scanout::mesh::{Cluster, Mesh, Normals, Sphere};
 use scanout::texture::Wrap;
 
 /// Normals of a [`MeshBuf`], Q2.14, as `scanout::mesh::Normals`.
@@ -35,6 +35,8 @@ pub struct MeshBuf {
     pub edges: Vec<[u16; 2]>,
     /// Bounding sphere.
     pub bounds: Option<Sphere>,
+    /// Bounds of every eight triangles, made from the positions and triangles as they are; or empty.
+    pub clusters: Vec<Cluster>,
 }
 
 impl MeshBuf {
@@ -53,6 +55,7 @@ impl MeshBuf {
             uv_triangles: &self.uv_triangles,
             edges: &self.edges,
             bounds: self.bounds,
+            clusters: &self.clusters,
         }
     }
 }

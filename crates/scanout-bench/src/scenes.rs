@@ -188,6 +188,7 @@ impl Data {
     pub(crate) fn keep_triangles(&mut self, triangles: &[[u16; 3]]) {
         self.meshes[0].triangles = triangles.to_vec();
         self.meshes[0].uv_triangles = triangles.to_vec();
+        self.meshes[0].clusters = Vec::new();
     }
 
     /// Hands the scene and memory for it to `action`.

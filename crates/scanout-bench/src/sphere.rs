@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use scanout::mesh::Sphere;
+use scanout::mesh_clusters::clusters;
 use scanout::mesh_edges::unique_edges;
 use scanout_assets::{MeshBuf, NormalsBuf};
 
@@ -65,6 +67,8 @@ pub fn sphere(triangles: usize) -> MeshBuf {
     assert_eq!(mesh.triangles.len(), triangles);
     mesh.normals = NormalsBuf::Vertex(normals);
     mesh.edges = edges_of(&mesh.triangles);
+    mesh.bounds = Some(Sphere { centre: [0; 3], radius: 32768 });
+    mesh.clusters = clusters(&mesh.positions, &mesh.triangles).collect();
     mesh
 }
 

@@ -5,7 +5,12 @@
 //! | back face | sign of twice the screen area (i64); of the clip-space determinant (i128) for what is clipped | yes |
 //! | no area | the same | yes |
 //! | view volume | bounding box of pixel centres against the frame | yes |
+//! | eight triangles | a cone of normals and the eye, with a margin for what rounding can turn ([`ClusterView`]) | no |
 //! | whole mesh | bounding sphere against the six planes, in clip units, rounded so that it never culls what is visible | no |
+
+mod clusters;
+
+pub use clusters::ClusterView;
 
 use crate::math::add_product;
 use crate::mesh::Sphere;
@@ -50,25 +55,42 @@ pub fn sphere_outside(m: &ClipMatrix, sphere: &Sphere) -> bool {
     // Each plane is `row . p >= 0` with row = w + x, w - x, w + y, w - y, z, w - z; those that most often decide first.
     [(2, 1, 0), (0, 1, 1), (0, -1, 1), (1, 1, 1), (1, -1, 1), (2, -1, 1)]
         .iter()
-        .any(|&(i, sign_i, sign_w)| outside(m, &centre, sphere.radius, i, sign_i, sign_w))
+        .any(|&(i, a, b)| Plane::new(m, &centre, sphere.radius, i, a, b).outside())
 }
 
-/// Whether a sphere lies outside the plane `sign_i row_i + sign_w row_w`.
-#[inline(never)]
-fn outside(
-    m: &ClipMatrix,
-    centre: &[i32; 4],
-    radius: u16,
-    i: usize,
-    sign_i: i64,
-    sign_w: i64,
-) -> bool {
-    let sum = |a: i32, w: i32| sign_i * a as i64 + sign_w * w as i64;
-    // Length of the plane's normal, rounded up: components below 2^31, halved twice to fit.
-    let squares: u64 =
-        (0..3).map(|k| (sum(m.m[i][k], m.m[3][k]).unsigned_abs() >> 2) + 1).map(|n| n * n).sum();
-    let length = (crate::math::isqrt64(squares) as i64 + 1) << 2;
-    sum(centre[i], centre[3]) + ((length * radius as i64) >> 15) + 4 < 0
+/// The plane `a row_i + b row_w >= 0` of a clip matrix, as a sphere sees it; clip units.
+struct Plane {
+    at_centre: i64,
+    /// How much the sphere's points may differ from its centre, and rounding.
+    reach: i64,
+}
+
+impl Plane {
+    #[inline(never)]
+    fn new(m: &ClipMatrix, centre: &[i32; 4], radius: u16, i: usize, a: i64, b: i64) -> Plane {
+        let at_centre = a * centre[i] as i64 + b * centre[3] as i64;
+        Plane { at_centre, reach: ((row_length(m, i, a, b) * radius as i64) >> 15) + 4 }
+    }
+
+    /// All of the sphere is outside.
+    fn outside(&self) -> bool {
+        self.at_centre + self.reach < 0
+    }
+
+    /// All of the sphere is inside.
+    fn inside(&self) -> bool {
+        self.at_centre > self.reach
+    }
+}
+
+/// Length of the first three of `a row_i + b row_w`, rounded up; |a| + |b| at most 3.
+fn row_length(m: &ClipMatrix, i: usize, a: i64, b: i64) -> i64 {
+    // Components below 2^32, halved three times to fit.
+    let squares: u64 = (0..3)
+        .map(|k| a * m.m[i][k] as i64 + b * m.m[3][k] as i64)
+        .map(|v| ((v.unsigned_abs() >> 3) + 1).pow(2))
+        .sum();
+    (crate::math::isqrt64(squares) as i64 + 1) << 3
 }
 
 #[cfg(test)]

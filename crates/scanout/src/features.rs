@@ -16,6 +16,7 @@ features! {
     ALL_LIGHTS = "all-lights"
     ALL_TEXTURES = "all-textures"
     BACKGROUND_IMAGES = "background-images"
+    CLUSTERS = "clusters"
     DITHER = "dither"
     FOG = "fog"
     GOURAUD = "gouraud"

@@ -93,6 +93,7 @@ pub mod light;
 pub mod math;
 mod memory;
 pub mod mesh;
+pub mod mesh_clusters;
 pub mod mesh_edges;
 pub mod output;
 pub mod overlay;

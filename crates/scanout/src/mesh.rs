@@ -9,9 +9,12 @@
 //! | `triangles` | `[u16; 3]` | indices into `positions`, counter-clockwise seen from outside |
 //! | `uv_triangles` | `[u16; 3]` | indices into `uvs`, parallel to `triangles` |
 //! | `edges` | `[u16; 2]` | indices into `positions`; each edge once |
+//! | `clusters` | [`Cluster`] | one for every eight of `triangles`, in order |
 //!
 //! Positions and texture coordinates have indices of their own (as in OBJ), so a vertex on a texture seam is still
 //! transformed once. What a mesh will not do: more than 65,536 positions or texture coordinates (split it).
+
+pub use crate::mesh_clusters::Cluster;
 
 /// Normals of a mesh, one a position or one a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -53,4 +56,8 @@ pub struct Mesh<'a> {
     pub edges: &'a [[u16; 2]],
     /// Bounding sphere for whole-mesh culling, or `None` to never cull the mesh as a whole.
     pub bounds: Option<Sphere>,
+    /// Bounds of every eight triangles ([`mesh_clusters::clusters`](crate::mesh_clusters::clusters) makes them), or empty. Filled
+    /// modes drop what is turned away by them, faster and with the same pixels; they serve a mesh with `bounds` whose material has one
+    /// side, and need the feature `clusters`. They must have been made from these `positions` and `triangles`: others drop what is seen.
+    pub clusters: &'a [Cluster],
 }

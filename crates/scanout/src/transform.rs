@@ -33,6 +33,8 @@ pub const FAR: u8 = 1 << 6;
 pub const GUARD: u8 = 1 << 7;
 /// Any reason to send a primitive through the clip stage.
 pub const CLIP: u8 = NEAR | FAR | GUARD;
+/// The flags of a vertex that nobody has asked for yet: no projection gives them.
+pub(crate) const PENDING: u8 = CLIP | 1;
 /// log2 of the guard band in units of w.
 pub const GUARD_BITS: u32 = 13;
 

@@ -6,7 +6,7 @@ use common::{Memory, Owned, Picture, camera, draw, material, object, scene, sphe
 use scanout::camera::{Camera, Viewpoint, projection};
 use scanout::frame::{BandError, Frame, Needed, Part, Preparation, PrepareError, Settings, Stats};
 use scanout::math::{Angle, Mat4, Q16, Vec3};
-use scanout::mesh::{Mesh, Normals};
+use scanout::mesh::{Cluster, Mesh, Normals};
 use scanout::output::{Rgb565, Rgb888};
 use scanout::scene::{Background, Light, Mode, Object, Scene};
 use scanout::texture::{Texels, Texture};
@@ -362,6 +362,7 @@ fn wrong_scenes_are_refused() {
     );
     assert_eq!(try_mesh(&Mesh { normals: Normals::Face(&[[0; 3]]), ..good }, Mode::Flat), lengths);
     assert_eq!(try_mesh(&Mesh { colours: &[[0; 3]], ..good }, Mode::Flat), lengths);
+    assert_eq!(try_mesh(&Mesh { clusters: &[Cluster::default()], ..good }, Mode::Flat), lengths);
     assert_eq!(try_mesh(&Mesh { uv_triangles: &[[0; 3]], ..good }, Mode::Flat), lengths);
     let far_uvs = vec![[999u16; 3]; good.triangles.len()];
     assert!(matches!(

@@ -281,6 +281,7 @@ impl<'a> BakedMesh<'a> {
                 uv_triangles,
                 edges,
                 bounds: (flags & 2 != 0).then_some(bounds),
+                clusters: &[],
             },
             colour: [72, 73, 74].map(|field| bytes[at + field]),
             ambient: u32_at(bytes, at + 76) as i32,

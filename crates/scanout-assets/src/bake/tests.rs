@@ -44,7 +44,9 @@ fn a_round_trip_keeps_everything() {
         assert_eq!(baked.offset(), [1 << 31, 1 << 31, -(1 << 31)]);
         for (part, ours) in baked.parts().zip(&model.parts) {
             assert_eq!(part.name, ours.name);
-            assert_eq!(format!("{:?}", part.mesh), format!("{:?}", ours.mesh.as_mesh()));
+            // All but the clusters, which the file doesn't hold.
+            let expected = scanout::mesh::Mesh { clusters: &[], ..ours.mesh.as_mesh() };
+            assert_eq!(format!("{:?}", part.mesh), format!("{expected:?}"));
             assert_eq!(part.colour, ours.material.colour);
             assert_eq!((part.ambient, part.diffuse, part.specular), (13107, 52429, 0));
             assert_eq!(part.texture, ours.material.texture);

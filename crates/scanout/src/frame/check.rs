@@ -3,7 +3,7 @@
 use super::{MAX_SIDE, PrepareError, Settings};
 use crate::features;
 use crate::light::{MAX_LIGHTS, plainly_lit};
-use crate::mesh::Normals;
+use crate::mesh::{Cluster, Normals};
 use crate::scene::{Background, Light, Mode, Scene};
 use crate::texture::{Repeat565, RepeatPalette, Texture};
 
@@ -36,6 +36,7 @@ pub(super) fn check(scene: &Scene, settings: &Settings) -> Result<(), PrepareErr
         if !normals_fit
             || !parallel(mesh.colours.len(), mesh.positions.len())
             || !parallel(mesh.uv_triangles.len(), mesh.triangles.len())
+            || !parallel(mesh.clusters.len(), mesh.triangles.len().div_ceil(Cluster::TRIANGLES))
         {
             return Err(PrepareError::Lengths { object: index });
         }

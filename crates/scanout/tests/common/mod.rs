@@ -34,7 +34,7 @@ impl Owned {
             triangles: &self.triangles,
             uv_triangles: if self.uvs.is_empty() { &[] } else { &self.triangles },
             edges: &self.edges,
-            bounds: None,
+            ..Mesh::default()
         }
     }
 }

@@ -12,10 +12,10 @@ use super::super::{BACK, CLIPPED, Kind, PrepareError, Primitive};
 use super::{List, ObjectPass, Transformed, geometric_normal, surface_colour};
 use crate::avx2::{EIGHT, Seen};
 use crate::clip::{self, Corner};
-use crate::cull::{Facing, facing, facing_in_clip_space};
+use crate::cull::{ClusterView, Facing, facing, facing_in_clip_space};
 use crate::features;
 use crate::light::Lighting;
-use crate::mesh::Normals;
+use crate::mesh::{Cluster, Normals};
 use crate::setup::{first_pixel, signed_area};
 use crate::transform::{CLIP, FAR, NEAR, Vertex};
 
@@ -31,7 +31,10 @@ impl ObjectPass<'_> {
     ) -> Result<(), PrepareError> {
         list.stats.triangles += range.len() as u32;
         let Some(avx2) = self.avx2 else {
-            return self.one_by_one(range, vertices, lighting, kind, list);
+            return match &self.clusters {
+                Some(view) => self.by_clusters(view, range, vertices, lighting, kind, list),
+                None => self.one_by_one(range, vertices, lighting, kind, list),
+            };
         };
         let triangles = &self.object.mesh.triangles[range.clone()];
         let one_sided = self.one_sided();
@@ -64,6 +67,39 @@ impl ObjectPass<'_> {
         self.one_by_one(range.end - rest.len()..range.end, vertices, lighting, kind, list)
     }
 
+    /// The same for triangles whose clusters are asked first.
+    fn by_clusters(
+        &self,
+        view: &ClusterView,
+        range: Range<usize>,
+        vertices: &mut impl Transformed,
+        lighting: &Lighting,
+        kind: Kind,
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
+        const MANY: usize = Cluster::TRIANGLES;
+        let clusters = &self.object.mesh.clusters[..range.end.div_ceil(MANY)];
+        let mut at = range.start;
+        while at < range.end {
+            // The triangles up to the next cluster that is turned away, then all of such clusters.
+            let from = at / MANY;
+            let kept = clusters[from..].iter().take_while(|c| !view.turned_away(c)).count();
+            let to = range.end.min((from + kept) * MANY);
+            if kept > 0 {
+                self.one_by_one(at..to, vertices, lighting, kind, list)?;
+                at = to;
+            }
+            let from = from + kept;
+            // The first of them is known to be.
+            let rest = clusters.get(from + 1..).unwrap_or(&[]);
+            let turned = 1 + rest.iter().take_while(|c| view.turned_away(c)).count();
+            let to = range.end.min((from + turned) * MANY);
+            list.stats.back_facing += (to - at) as u32;
+            at = to;
+        }
+        Ok(())
+    }
+
     /// The same, one after another. Most are dropped here, so this loop holds nothing but the tests.
     #[inline(never)]
     fn one_by_one(
@@ -78,7 +114,7 @@ impl ObjectPass<'_> {
         let mut triangles = range.clone().zip(&self.object.mesh.triangles[range.clone()]);
         let mut kept = 0;
         while let Some((index, &triangle, found)) =
-            next_facing(&mut triangles, marked.vertices(), one_sided)
+            self.next_facing(&mut triangles, marked, one_sided)
         {
             kept += 1;
             match found {
@@ -180,6 +216,36 @@ impl ObjectPass<'_> {
         lighting.lit_in_mesh(colour, normal, centre)
     }
 
+    /// The next triangle that isn't dropped at first sight. Most are, so this loop holds nothing but the test.
+    #[inline(always)]
+    fn next_facing<'t>(
+        &self,
+        triangles: &mut impl Iterator<Item = (usize, &'t [u16; 3])>,
+        marked: &mut impl Transformed,
+        one_sided: bool,
+    ) -> Option<(usize, &'t [u16; 3], Found)> {
+        for (index, triangle) in triangles {
+            let (corners, facing) = loop {
+                let vertices = marked.vertices();
+                let [a, b, c] = triangle.map(|i| vertices.get(i as usize));
+                let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+                    return Some((index, triangle, Found::NoVertex));
+                };
+                if (a.flags | b.flags | c.flags) & CLIP == 0 {
+                    let corners = [[a.x, a.y], [b.x, b.y], [c.x, c.y]];
+                    break (corners, facing(signed_area(&corners)));
+                }
+                if !marked.complete(self, *triangle) {
+                    return Some((index, triangle, Found::Clipped));
+                }
+            };
+            if facing == Facing::Front || (facing == Facing::Back && !one_sided) {
+                return Some((index, triangle, Found::Unclipped(corners, facing)));
+            }
+        }
+        None
+    }
+
     /// Rows of the frame that a clipped triangle may touch.
     fn clipped_rows(&self, triangle: &[[i32; 4]; 3]) -> Option<(i16, i16)> {
         // In place: a corner is many words, and `map` moves it about.
@@ -219,28 +285,4 @@ enum Found {
     Clipped,
     /// One of its indices is of no vertex.
     NoVertex,
-}
-
-/// The next of such triangles. Most are dropped here, so this loop holds nothing but the test.
-#[inline(always)]
-fn next_facing<'t>(
-    triangles: &mut impl Iterator<Item = (usize, &'t [u16; 3])>,
-    vertices: &[Vertex],
-    one_sided: bool,
-) -> Option<(usize, &'t [u16; 3], Found)> {
-    for (index, triangle) in triangles {
-        let [a, b, c] = triangle.map(|i| vertices.get(i as usize));
-        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
-            return Some((index, triangle, Found::NoVertex));
-        };
-        if (a.flags | b.flags | c.flags) & CLIP != 0 {
-            return Some((index, triangle, Found::Clipped));
-        }
-        let corners = [[a.x, a.y], [b.x, b.y], [c.x, c.y]];
-        let facing = facing(signed_area(&corners));
-        if facing == Facing::Front || (facing == Facing::Back && !one_sided) {
-            return Some((index, triangle, Found::Unclipped(corners, facing)));
-        }
-    }
-    None
 }
