@@ -10,13 +10,14 @@ use scanout::output::Rgb565;
 use scanout::transform::Vertex;
 use scanout_assets::{Limits, LoadOptions, load, load_image};
 
-/// The hashes of a model's first frames.
+/// The hashes of a model's first frames; with `palette`, the picture is reduced to so many colours (1 to 256) first.
 ///
 /// # Errors
 /// When a file can't be read, in one line.
 pub fn hashes(
     obj: &Path,
     picture: Option<&Path>,
+    palette: Option<usize>,
     scale: Q16,
     frames: u32,
 ) -> Result<Vec<u64>, String> {
@@ -26,7 +27,14 @@ pub fn hashes(
     };
     let picture = picture.map(|path| load_image(path, &Limits::default())).transpose();
     let picture = picture.map_err(|error| error.to_string())?.map(|(image, _)| image);
-    let texels = picture.as_ref().map(|image| image.to_rgb565());
+    // Colours one by one, not through the renderer's own look-up in a palette.
+    let texels = picture.as_ref().map(|image| match palette {
+        None => image.to_rgb565(),
+        Some(most) => {
+            let paletted = image.to_palette(most);
+            paletted.indices.iter().map(|&index| paletted.palette[usize::from(index)]).collect()
+        }
+    });
     let texture = picture.as_ref().zip(texels.as_ref());
     let texture = texture.map(|(image, texels)| image.as_texture565(texels));
     let q32 = |x: f64| (x * 4_294_967_296.0).round() as i64;

@@ -27,6 +27,7 @@ Usage: qemu-system-riscv64 ... | monitor [--hashes] [--show terminal|window] [--
   --frames NUMBER   stop after so many
   --expect OBJ      the frames must be system B's scene with this model, as the PC draws it; with
   --texture PPM     this picture, and
+  --palette NUMBER  reduced to so many colours, 1 to 256, and
   --scale NUMBER    this size (default 1); needs --frames, which must all come
   --list            print what should come, a line a frame, and read nothing
   --pause SECONDS   take nothing for so long after the first frame (tests a display that stops answering)
@@ -43,6 +44,7 @@ struct Options {
     pause: f64,
     expect: Option<PathBuf>,
     texture: Option<PathBuf>,
+    palette: Option<usize>,
     scale: f64,
     list: bool,
 }
@@ -93,6 +95,12 @@ fn options(mut words: impl Iterator<Item = String>) -> Result<Option<Options>, S
             "--png" => options.png = Some(value()?),
             "--expect" => options.expect = Some(value()?.into()),
             "--texture" => options.texture = Some(value()?.into()),
+            "--palette" => {
+                let value = value()?;
+                let colours = value.parse().ok().filter(|colours| (1..=256).contains(colours));
+                options.palette =
+                    Some(colours.ok_or(format!("{value} is no number of colours, 1 to 256"))?);
+            }
             "--scale" => {
                 let value = value()?;
                 options.scale = value.parse().map_err(|_| format!("{value} is no scale"))?;
@@ -111,6 +119,9 @@ fn options(mut words: impl Iterator<Item = String>) -> Result<Option<Options>, S
             _ => return Err(format!("{word} is no option")),
         }
     }
+    if options.palette.is_some() && options.texture.is_none() {
+        return Err("--palette needs --texture".into());
+    }
     if options.expect.is_some() && options.frames.is_none() {
         return Err("--expect needs --frames".into());
     }
@@ -125,7 +136,8 @@ fn run(options: Options, mut screen: Option<show::Screen>) -> Result<(), String>
     let expected = match &options.expect {
         Some(obj) => {
             let scale = scanout::math::Q16::from_f64(options.scale);
-            Some(hashes(obj, options.texture.as_deref(), scale, options.frames.unwrap_or(0))?)
+            let frames = options.frames.unwrap_or(0);
+            Some(hashes(obj, options.texture.as_deref(), options.palette, scale, frames)?)
         }
         None => None,
     };

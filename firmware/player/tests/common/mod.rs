@@ -314,7 +314,7 @@ pub fn new_storage() -> Box<Memory> {
 pub fn expected(name: &str, textured: bool, scale: Q16, frames: u32) -> Vec<u64> {
     let picture = textured.then(|| models().join(format!("{name}.ppm")));
     let obj = models().join(format!("{name}.obj"));
-    monitor::expected::hashes(&obj, picture.as_deref(), scale, frames).unwrap()
+    monitor::expected::hashes(&obj, picture.as_deref(), None, scale, frames).unwrap()
 }
 
 /// Moves every cluster but the first of each file and folder to some other place.
