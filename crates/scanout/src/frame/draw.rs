@@ -6,7 +6,8 @@ mod alike;
 
 use core::ops::Range;
 
-use super::fragment::{ByRows, Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Walked};
+use self::alike::by_rows;
+use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Tinted};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
 use super::{BACK, Band, BandError, CLIPPED, DrawError, Frame, Kind, Primitive};
@@ -22,6 +23,7 @@ use crate::raster::point::draw_point;
 use crate::raster::smooth_line::{SmoothEnd, walk_smooth};
 use crate::scene::{Mode, Object};
 use crate::setup::Triangle;
+use crate::shade::Factors;
 use crate::texture::{General, Repeat565, RepeatPalette, Texture};
 use crate::transform::{Vertex, Viewport, common_inverse_w};
 
@@ -334,8 +336,13 @@ impl<'f> Painter<'f> {
                     Some(sampler)
                         if target.walks() && !(features::FOG && self.frame.fog.is_some()) =>
                     {
-                        let way = ByRows::new(t, sampler.size, uv, q);
-                        target.fill(t, z, &Walked { inner: shader, sampler, way });
+                        if S::CONSTANT {
+                            let rgb = shader.colour(&shader.at(0, 0));
+                            let inner = Tinted { rgb, tint: Factors::new(rgb) };
+                            by_rows(target, t, z, inner, sampler, uv, q);
+                        } else {
+                            by_rows(target, t, z, shader, sampler, uv, q);
+                        }
                     }
                     Some(sampler) => {
                         self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);

@@ -198,8 +198,9 @@ fn walk<F: PixelFormat, S: Shader>(
     }
 }
 
+/// Draws a textured triangle along its rows.
 #[inline(never)]
-fn by_rows<F: PixelFormat, S: Shader>(
+pub(super) fn by_rows<F: PixelFormat, S: Shader>(
     target: &mut Target<F>,
     t: &Triangle,
     z: &Plane,
