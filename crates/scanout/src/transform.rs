@@ -91,6 +91,30 @@ impl ClipMatrix {
     }
 }
 
+/// A [`ClipMatrix`] for many positions in a row: entries widened, half a unit in the last place added to the last column.
+pub(crate) struct WideMatrix([[i64; 4]; 4]);
+
+impl WideMatrix {
+    /// Of a matrix.
+    #[inline]
+    pub fn new(matrix: &ClipMatrix) -> WideMatrix {
+        WideMatrix(matrix.m.map(|row| {
+            let [x, y, z, w] = row.map(i64::from);
+            [x, y, z, (w << 15) + (1 << 14)]
+        }))
+    }
+
+    /// As [`ClipMatrix::apply`].
+    #[inline(always)]
+    pub fn apply(&self, p: [i16; 3]) -> [i32; 4] {
+        let p = p.map(i64::from);
+        [0, 1, 2, 3].map(|i: usize| {
+            let row = &self.0[i];
+            ((row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]) >> 15) as i32
+        })
+    }
+}
+
 /// The screen that clip coordinates map to: half its width and height in 1/16 pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Viewport {
@@ -270,6 +294,7 @@ mod tests {
             for corner in 0..8 {
                 let p = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { i16::MIN } else { i16::MAX });
                 assert!(m.apply(p).iter().all(|c| c.unsigned_abs() <= (1 << 30) + 4));
+                assert_eq!(WideMatrix::new(&m).apply(p), m.apply(p));
             }
         }
         assert_eq!(ClipMatrix::new(&Mat4 { m: [[0; 4]; 4] }).apply([1, 2, 3]), [0; 4]);

@@ -17,7 +17,7 @@ use crate::math::normalise_q14;
 use crate::mesh::{Mesh, Normals};
 use crate::scene::{Mode, Object, Scene};
 use crate::shade::{FogWeights, modulate};
-use crate::transform::{ClipMatrix, PENDING, Vertex, Viewport};
+use crate::transform::{ClipMatrix, PENDING, Vertex, Viewport, WideMatrix};
 
 /// Edges that may become one primitive.
 pub(super) const TOGETHER: usize = 32;
@@ -243,8 +243,8 @@ const UNMARKED: u32 = 1 << 31;
 /// An object's vertices while its triangles are culled.
 pub(super) trait Transformed {
     fn vertices(&self) -> &[Vertex];
-    /// Transforms those of a triangle's corners that are pending; false when none is.
-    fn complete(&mut self, pass: &ObjectPass, triangle: [u16; 3]) -> bool;
+    /// Transforms those corners of some triangles that are pending.
+    fn complete(&mut self, pass: &ObjectPass, triangles: &[[u16; 3]]);
     /// The triangle is kept.
     fn keep(&mut self, triangle: [u16; 3]);
 }
@@ -256,9 +256,7 @@ impl Transformed for &[Vertex] {
         self
     }
     #[inline]
-    fn complete(&mut self, _: &ObjectPass, _: [u16; 3]) -> bool {
-        false
-    }
+    fn complete(&mut self, _: &ObjectPass, _: &[[u16; 3]]) {}
     #[inline]
     fn keep(&mut self, _: [u16; 3]) {}
 }
@@ -275,8 +273,8 @@ impl Transformed for Marked<'_> {
         self.vertices
     }
     #[inline]
-    fn complete(&mut self, pass: &ObjectPass, triangle: [u16; 3]) -> bool {
-        features::CLUSTERS && pass.complete(self.vertices, triangle)
+    fn complete(&mut self, pass: &ObjectPass, triangles: &[[u16; 3]]) {
+        pass.complete(self.vertices, triangles);
     }
     #[inline]
     fn keep(&mut self, triangle: [u16; 3]) {
@@ -386,21 +384,26 @@ impl ObjectPass<'_> {
         }
     }
 
-    /// Transforms those of a triangle's corners that are pending; false when none is.
+    /// Transforms those corners of some triangles that are pending.
     #[inline(never)]
-    fn complete(&self, vertices: &mut [Vertex], triangle: [u16; 3]) -> bool {
-        let mut any = false;
-        for i in triangle {
-            let places = (vertices.get_mut(i as usize), self.object.mesh.positions.get(i as usize));
-            if let (Some(vertex), Some(&position)) = places
-                && vertex.flags == PENDING
-            {
-                *vertex = self.viewport.project(&self.clip.apply(position));
-                vertex.rgb = surface_colour(self.object, i);
-                any = true;
+    fn complete(&self, vertices: &mut [Vertex], triangles: &[[u16; 3]]) {
+        let positions = self.object.mesh.positions;
+        let coloured = features::VERTEX_COLOURS && !self.object.mesh.colours.is_empty();
+        let matrix = WideMatrix::new(self.clip);
+        // Of one length, so that one test is enough.
+        let (vertices, positions) = (&mut vertices[..positions.len()], positions);
+        for &i in triangles.as_flattened() {
+            // One that is missing is an error when its triangle's turn comes.
+            let Some(vertex) = vertices.get_mut(i as usize) else { continue };
+            if vertex.flags == PENDING {
+                let position = positions[i as usize];
+                *vertex = self.viewport.project(&matrix.apply(position));
+                vertex.rgb = self.object.material.colour;
+                if coloured {
+                    vertex.rgb = surface_colour(self.object, i);
+                }
             }
         }
-        any
     }
 
     /// Cull, by the object's mode.

@@ -86,6 +86,7 @@ impl ObjectPass<'_> {
             let kept = clusters[from..].iter().take_while(|c| !view.turned_away(c)).count();
             let to = range.end.min((from + kept) * MANY);
             if kept > 0 {
+                vertices.complete(self, &self.object.mesh.triangles[at..to]);
                 self.one_by_one(at..to, vertices, lighting, kind, list)?;
                 at = to;
             }
@@ -114,7 +115,7 @@ impl ObjectPass<'_> {
         let mut triangles = range.clone().zip(&self.object.mesh.triangles[range.clone()]);
         let mut kept = 0;
         while let Some((index, &triangle, found)) =
-            self.next_facing(&mut triangles, marked, one_sided)
+            Self::next_facing(&mut triangles, marked.vertices(), one_sided)
         {
             kept += 1;
             match found {
@@ -219,26 +220,20 @@ impl ObjectPass<'_> {
     /// The next triangle that isn't dropped at first sight. Most are, so this loop holds nothing but the test.
     #[inline(always)]
     fn next_facing<'t>(
-        &self,
         triangles: &mut impl Iterator<Item = (usize, &'t [u16; 3])>,
-        marked: &mut impl Transformed,
+        vertices: &[Vertex],
         one_sided: bool,
     ) -> Option<(usize, &'t [u16; 3], Found)> {
         for (index, triangle) in triangles {
-            let (corners, facing) = loop {
-                let vertices = marked.vertices();
-                let [a, b, c] = triangle.map(|i| vertices.get(i as usize));
-                let (Some(a), Some(b), Some(c)) = (a, b, c) else {
-                    return Some((index, triangle, Found::NoVertex));
-                };
-                if (a.flags | b.flags | c.flags) & CLIP == 0 {
-                    let corners = [[a.x, a.y], [b.x, b.y], [c.x, c.y]];
-                    break (corners, facing(signed_area(&corners)));
-                }
-                if !marked.complete(self, *triangle) {
-                    return Some((index, triangle, Found::Clipped));
-                }
+            let [a, b, c] = triangle.map(|i| vertices.get(i as usize));
+            let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+                return Some((index, triangle, Found::NoVertex));
             };
+            if (a.flags | b.flags | c.flags) & CLIP != 0 {
+                return Some((index, triangle, Found::Clipped));
+            }
+            let corners = [[a.x, a.y], [b.x, b.y], [c.x, c.y]];
+            let facing = facing(signed_area(&corners));
             if facing == Facing::Front || (facing == Facing::Back && !one_sided) {
                 return Some((index, triangle, Found::Unclipped(corners, facing)));
             }
