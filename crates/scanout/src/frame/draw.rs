@@ -333,24 +333,34 @@ impl<'f> Painter<'f> {
                 let (q, _) = common_inverse_w(v);
                 let uv = [0, 1, 2].map(|k| self.uv(corners, k));
                 match Repeat565::new(texture) {
-                    Some(sampler)
-                        if target.walks() && !(features::FOG && self.frame.fog.is_some()) =>
-                    {
-                        if S::CONSTANT {
-                            let rgb = shader.colour(&shader.at(0, 0));
-                            let inner = Tinted { rgb, tint: Factors::new(rgb) };
-                            by_rows(target, t, z, inner, sampler, uv, q);
-                        } else {
-                            by_rows(target, t, z, shader, sampler, uv, q);
-                        }
+                    Some(sampler) if S::CONSTANT => {
+                        let rgb = shader.colour(&shader.at(0, 0));
+                        let inner = Tinted { rgb, tint: Factors::new(rgb) };
+                        self.plain_texture(t, v, z, (sampler, uv, q), inner, target);
                     }
                     Some(sampler) => {
-                        self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
+                        self.plain_texture(t, v, z, (sampler, uv, q), shader, target);
                     }
                     None => self.other_texture(texture, t, v, z, (uv, q), shader, target),
                 }
             }
             None => self.fog(t, v, z, shader, target),
+        }
+    }
+
+    fn plain_texture<F: PixelFormat, S: Shader>(
+        &self,
+        t: &Triangle,
+        v: [&Vertex; 3],
+        z: &Plane,
+        (sampler, uv, q): (Repeat565, [[i32; 2]; 3], [u32; 3]),
+        shader: S,
+        target: &mut Target<F>,
+    ) {
+        if target.walks() && !(features::FOG && self.frame.fog.is_some()) {
+            by_rows(target, t, z, shader, sampler, uv, q);
+        } else {
+            self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
         }
     }
 
