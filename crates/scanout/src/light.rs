@@ -78,9 +78,7 @@ pub struct Lighting {
     space: Space,
 }
 
-/// Diffuse white light from afar, for many vertices at once; all Q.14.
-// Only `avx2` looks into it.
-#[cfg_attr(not(all(feature = "simd", target_arch = "x86_64")), allow(dead_code))]
+/// Diffuse white light from afar, for many normals; all Q.14.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlainLight {
     /// Where light comes from, each coordinate in [-1, 1], and its weight in [0, 1]; the first `count`.
@@ -88,6 +86,18 @@ pub(crate) struct PlainLight {
     pub count: usize,
     pub ambient: i32,
     pub floor: i32,
+}
+
+impl PlainLight {
+    /// As [`Lighting::lit_in_mesh`].
+    #[inline(always)]
+    pub fn lit(&self, rgb: [u8; 3], normal: [i16; 3]) -> [u8; 3] {
+        let mut sum = self.ambient;
+        for &(towards, weight) in &self.lamps[..self.count] {
+            sum += (dot(normal.map(i32::from), towards).clamp(0, ONE) * weight) >> 14;
+        }
+        shaded(rgb, [sum.max(self.floor).min(ONE); 3])
+    }
 }
 
 fn q14(v: Q16) -> i32 {

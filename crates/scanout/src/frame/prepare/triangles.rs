@@ -15,12 +15,12 @@ use crate::clip::{self, Corner};
 use crate::cull::{ClusterView, Facing, facing, facing_in_clip_space};
 use crate::features;
 use crate::light::Lighting;
-use crate::mesh::{Cluster, Normals};
+use crate::mesh::{Cluster, Mesh, Normals};
 use crate::setup::{first_pixel, signed_area};
 use crate::transform::{CLIP, FAR, NEAR, Vertex};
 
 impl ObjectPass<'_> {
-    /// Cull: triangles that can be seen.
+    /// Cull: triangles that can be seen, lit if they are lit as a whole.
     pub(super) fn triangles(
         &self,
         range: Range<usize>,
@@ -29,11 +29,31 @@ impl ObjectPass<'_> {
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
+        let first = list.len;
+        self.facing_triangles(range, vertices, kind, list)?;
+        if self.whole
+            && let Some(listed) = list.primitives.get_mut(first..)
+        {
+            let count = (list.len - first).min(listed.len());
+            self.light_faces(&mut listed[..count], lighting);
+        }
+        Ok(())
+    }
+
+    /// Cull.
+    #[inline(always)]
+    fn facing_triangles(
+        &self,
+        range: Range<usize>,
+        vertices: &mut impl Transformed,
+        kind: Kind,
+        list: &mut List,
+    ) -> Result<(), PrepareError> {
         list.stats.triangles += range.len() as u32;
         let Some(avx2) = self.avx2 else {
             return match &self.clusters {
-                Some(view) => self.by_clusters(view, range, vertices, lighting, kind, list),
-                None => self.one_by_one(range, vertices, lighting, kind, list),
+                Some(view) => self.by_clusters(view, range, vertices, kind, list),
+                None => self.one_by_one(range, vertices, kind, list),
             };
         };
         let triangles = &self.object.mesh.triangles[range.clone()];
@@ -51,7 +71,7 @@ impl ObjectPass<'_> {
             let first = range.start + group * EIGHT;
             next = group + 1;
             if !seen.plain {
-                self.one_by_one(first..first + EIGHT, vertices, lighting, kind, list)?;
+                self.one_by_one(first..first + EIGHT, vertices, kind, list)?;
                 continue;
             }
             let mut rest = seen.kept;
@@ -60,11 +80,11 @@ impl ObjectPass<'_> {
                 rest &= rest - 1;
                 let rows = (seen.top[k] as i16, seen.bottom[k] as i16);
                 let facing = if seen.back >> k & 1 == 0 { Facing::Front } else { Facing::Back };
-                self.keep(first + k, kind as u8, rows, facing, lighting, list);
+                self.keep(first + k, kind as u8, rows, facing, list);
                 vertices.keep(groups[group][k]);
             }
         }
-        self.one_by_one(range.end - rest.len()..range.end, vertices, lighting, kind, list)
+        self.one_by_one(range.end - rest.len()..range.end, vertices, kind, list)
     }
 
     /// The same for triangles whose clusters are asked first.
@@ -73,7 +93,6 @@ impl ObjectPass<'_> {
         view: &ClusterView,
         range: Range<usize>,
         vertices: &mut impl Transformed,
-        lighting: &Lighting,
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
@@ -87,7 +106,7 @@ impl ObjectPass<'_> {
             let to = range.end.min((from + kept) * MANY);
             if kept > 0 {
                 vertices.complete(self, &self.object.mesh.triangles[at..to]);
-                self.one_by_one(at..to, vertices, lighting, kind, list)?;
+                self.one_by_one(at..to, vertices, kind, list)?;
                 at = to;
             }
             let from = from + kept;
@@ -107,7 +126,6 @@ impl ObjectPass<'_> {
         &self,
         range: Range<usize>,
         marked: &mut impl Transformed,
-        lighting: &Lighting,
         kind: Kind,
         list: &mut List,
     ) -> Result<(), PrepareError> {
@@ -126,9 +144,9 @@ impl ObjectPass<'_> {
                         list.stats.outside += 1;
                         continue;
                     };
-                    self.keep(index, kind as u8, rows, facing, lighting, list);
+                    self.keep(index, kind as u8, rows, facing, list);
                 }
-                Found::Clipped => self.keep_clipped(index, marked.vertices(), kind, lighting, list),
+                Found::Clipped => self.keep_clipped(index, marked.vertices(), kind, list),
                 Found::NoVertex => {
                     return Err(PrepareError::Index { object: self.index, element: index });
                 }
@@ -141,14 +159,7 @@ impl ObjectPass<'_> {
 
     /// The same tests for a triangle that the clip stage must cut.
     #[inline(never)]
-    fn keep_clipped(
-        &self,
-        index: usize,
-        vertices: &[Vertex],
-        kind: Kind,
-        lighting: &Lighting,
-        list: &mut List,
-    ) {
+    fn keep_clipped(&self, index: usize, vertices: &[Vertex], kind: Kind, list: &mut List) {
         let mesh = self.object.mesh;
         let triangle = mesh.triangles[index];
         let [a, b, c] = triangle.map(|i| vertices[i as usize].flags);
@@ -167,10 +178,10 @@ impl ObjectPass<'_> {
             return;
         };
         list.stats.clipped += 1;
-        self.keep(index, kind as u8 | CLIPPED, rows, facing, lighting, list);
+        self.keep(index, kind as u8 | CLIPPED, rows, facing, list);
     }
 
-    /// Lists a triangle, lit if it is lit as a whole.
+    /// Lists a triangle.
     #[inline]
     fn keep(
         &self,
@@ -178,14 +189,25 @@ impl ObjectPass<'_> {
         tag: u8,
         (top, bottom): (i16, i16),
         facing: Facing,
-        lighting: &Lighting,
         list: &mut List,
     ) {
-        let back = facing == Facing::Back;
-        let rgb = if self.whole { self.face_colour(index, back, lighting) } else { [0; 3] };
-        let tag = tag | if back { BACK } else { 0 };
+        let tag = tag | if facing == Facing::Back { BACK } else { 0 };
         let object = self.index as u16;
-        list.push(Primitive { index: index as u32, top, bottom, object, rgb, tag });
+        list.push(Primitive { index: index as u32, top, bottom, object, rgb: [0; 3], tag });
+    }
+
+    /// Light: triangles that are lit as a whole.
+    #[inline(never)]
+    fn light_faces(&self, primitives: &mut [Primitive], lighting: &Lighting) {
+        let (mesh, colour) = (*self.object.mesh, self.object.material.colour);
+        let plain = lighting.plain().filter(|_| mesh.colours.is_empty());
+        for primitive in primitives {
+            let (index, back) = (primitive.index as usize, primitive.tag & BACK != 0);
+            primitive.rgb = match &plain {
+                Some(light) => light.lit(colour, normal(&mesh, index, back)),
+                None => self.face_colour(index, back, lighting),
+            };
+        }
     }
 
     /// The colour of a triangle that is lit as a whole: the mean of its corners' colours, lit at their centre.
@@ -193,11 +215,7 @@ impl ObjectPass<'_> {
     fn face_colour(&self, index: usize, back: bool, lighting: &Lighting) -> [u8; 3] {
         let mesh = self.object.mesh;
         let triangle = mesh.triangles[index];
-        let normal = match mesh.normals {
-            Normals::Face(normals) => normals[index],
-            _ => geometric_normal(mesh, triangle),
-        };
-        let normal = if back { normal.map(|v| v.saturating_neg()) } else { normal };
+        let normal = normal(mesh, index, back);
         let mut colour = self.object.material.colour;
         if features::VERTEX_COLOURS && !mesh.colours.is_empty() {
             let colours = triangle.map(|c| surface_colour(self.object, c));
@@ -270,6 +288,16 @@ impl ObjectPass<'_> {
         let (y0, y1) = (first_pixel(low[1]).max(0), first_pixel(high[1]).min(height));
         (x0 < x1 && y0 < y1).then_some((y0 as i16, y1 as i16))
     }
+}
+
+/// The normal by which a triangle is lit as a whole.
+#[inline(always)]
+fn normal(mesh: &Mesh, index: usize, back: bool) -> [i16; 3] {
+    let normal = match mesh.normals {
+        Normals::Face(normals) => normals[index],
+        _ => geometric_normal(mesh, mesh.triangles[index]),
+    };
+    if back { normal.map(|v| v.saturating_neg()) } else { normal }
 }
 
 /// What a triangle that isn't dropped at first sight is.
