@@ -126,7 +126,7 @@ fn declare(declarations: &mut String, table: &mut String, name: &str, ports: &[P
 /// The lines of `configurations.txt` with the letter c.
 fn configurations(rtl: &Path) -> Result<Vec<Configuration>, String> {
     let path = rtl.join("configurations.txt");
-    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let text = read(&path)?;
     let mut found = Vec::new();
     for (number, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace().map(String::from);
@@ -169,7 +169,7 @@ fn needed(top: &str, modules: &BTreeMap<String, PathBuf>) -> Result<Vec<PathBuf>
         if !seen.insert(name) {
             continue;
         }
-        let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let text = read(path)?;
         let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
         for word in code.flat_map(|line| line.split(|c: char| !c.is_alphanumeric() && c != '_')) {
             if modules.contains_key(word) && !seen.contains(word) {
@@ -178,6 +178,15 @@ fn needed(top: &str, modules: &BTreeMap<String, PathBuf>) -> Result<Vec<PathBuf>
         }
     }
     Ok(seen.iter().map(|name| modules[name].clone()).collect())
+}
+
+/// The files that a module includes.
+fn included(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|line| line.trim().strip_prefix("`include \"")?.strip_suffix('"'))
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
 struct Verilator {
@@ -246,7 +255,11 @@ impl Verilator {
         parts.push(include_str!("build.rs").into());
         parts.extend(parameters.iter().cloned());
         for path in sources {
-            parts.push(fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?);
+            let text = read(path)?;
+            for name in included(&text) {
+                parts.push(read(&rtl.join(name))?);
+            }
+            parts.push(text);
         }
         let parts: Vec<&[u8]> = parts.iter().map(|p| p.as_bytes()).collect();
         let folder = cache.join(format!("{name}-{:016x}", hash(&parts)));
@@ -269,7 +282,7 @@ impl Verilator {
             run(&mut command)?;
         }
         let header = folder.join(format!("V{name}.h"));
-        let text = fs::read_to_string(&header).map_err(|e| format!("{}: {e}", header.display()))?;
+        let text = read(&header)?;
         let ports = ports(&text)?;
         if !library.exists() {
             let shim = folder.join("shim.cpp");
