@@ -28,6 +28,7 @@ mod fragment;
 mod parts;
 mod prepare;
 mod target;
+mod walked;
 
 use core::fmt;
 use core::ops::Range;

@@ -8,8 +8,9 @@
 
 use core::cell::OnceCell;
 
-use super::super::fragment::{ByRows, BySteps, Flat, Gouraud, Shader, Textured, Tinted, Walked};
+use super::super::fragment::{Flat, Gouraud, Shader, Textured, Tinted};
 use super::super::target::Target;
+use super::super::walked::{ByRows, BySteps, Walked};
 use super::super::{BACK, Frame, Primitive};
 use crate::avx2::{EIGHT, Source, Triangles};
 use crate::features;
