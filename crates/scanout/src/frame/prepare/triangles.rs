@@ -200,7 +200,9 @@ impl ObjectPass<'_> {
     #[inline(never)]
     fn light_faces(&self, primitives: &mut [Primitive], lighting: &Lighting) {
         let (mesh, colour) = (*self.object.mesh, self.object.material.colour);
-        let plain = lighting.plain().filter(|_| mesh.colours.is_empty());
+        // Without other lights the general way is as short.
+        let plain = if features::ALL_LIGHTS { lighting.plain() } else { None };
+        let plain = plain.filter(|_| mesh.colours.is_empty());
         for primitive in primitives {
             let (index, back) = (primitive.index as usize, primitive.tag & BACK != 0);
             primitive.rgb = match &plain {
