@@ -33,6 +33,11 @@ pub(super) fn most_primitives(object: &Object) -> usize {
     }
 }
 
+/// Back faces are dropped.
+fn one_sided(object: &Object) -> bool {
+    !features::TWO_SIDED || !object.material.two_sided
+}
+
 /// The surface's own colour at a position.
 #[inline]
 pub(super) fn surface_colour(object: &Object, position: u16) -> [u8; 3] {
@@ -181,11 +186,11 @@ impl<'a> Outline<'a> {
         viewport: &Viewport,
     ) -> Option<ClusterView> {
         let filled = matches!(object.mode, Mode::Flat | Mode::Gouraud | Mode::Phong);
-        let (mesh, one_sided) = (object.mesh, !features::TWO_SIDED || !object.material.two_sided);
+        let mesh = object.mesh;
         if !features::CLUSTERS
             || mesh.clusters.is_empty()
             || self.avx2.is_some()
-            || !(filled && one_sided)
+            || !(filled && one_sided(object))
         {
             return None;
         }
@@ -391,7 +396,7 @@ impl ObjectPass<'_> {
         let coloured = features::VERTEX_COLOURS && !self.object.mesh.colours.is_empty();
         let matrix = WideMatrix::new(self.clip);
         // Of one length, so that one test is enough.
-        let (vertices, positions) = (&mut vertices[..positions.len()], positions);
+        let vertices = &mut vertices[..positions.len()];
         for &i in triangles.as_flattened() {
             // One that is missing is an error when its triangle's turn comes.
             let Some(vertex) = vertices.get_mut(i as usize) else { continue };
@@ -431,7 +436,7 @@ impl ObjectPass<'_> {
 
     /// Back faces are dropped.
     fn one_sided(&self) -> bool {
-        !features::TWO_SIDED || !self.object.material.two_sided
+        one_sided(self.object)
     }
 
     /// The normals by which vertices are lit, where they are.
