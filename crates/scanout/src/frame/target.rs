@@ -20,6 +20,9 @@ use crate::setup::{Edge, Triangle};
 use crate::shade::blend;
 use crate::transform::Vertex;
 
+/// Pixels of a triangle's box, as far as it is drawn, that are worth tables for its tint.
+const ENOUGH: i64 = 512;
+
 /// Eight neighbours in memory.
 #[inline(always)]
 fn eight_at(memory: &mut [u16], at: usize) -> Option<&mut [u16; LANES]> {
@@ -165,14 +168,23 @@ impl<F: PixelFormat> Target<'_, F> {
     }
 
     /// Whether a triangle's pixels, drawn one after another here, are enough to make tables for their tint.
+    #[inline(always)]
     pub(super) fn tabled(&self, t: &Triangle) -> bool {
+        // Half of a box at most is covered.
+        t.area >= ENOUGH * 256 && self.has_enough(t)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn has_enough(&self, t: &Triangle) -> bool {
         let by_pixels =
             !lanes::AVAILABLE || !matches!(self.traversal, Traversal::Spans | Traversal::Baseline);
         if !by_pixels || self.dither || F::rgb565(&mut []).is_none() {
             return false;
         }
         let rows = t.max()[1].min(self.rows.end) - t.min()[1].max(self.rows.start);
-        (t.max()[0].min(self.width as i32) - t.min()[0].max(0)) * rows.max(0) >= 512
+        let columns = t.max()[0].min(self.width as i32) - t.min()[0].max(0);
+        (columns * rows.max(0)) as i64 >= ENOUGH
     }
 
     /// Depth, shade, output: a triangle's fragments.

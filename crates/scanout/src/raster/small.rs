@@ -39,7 +39,7 @@ impl Side {
 /// Gives each run of a triangle, whose box is at most [`LARGEST`], between some rows and columns to `draw`, from the top.
 #[inline(always)]
 pub fn for_each(t: &Triangle, rows: Range<i32>, columns: Range<i32>, mut draw: impl FnMut(Run)) {
-    let (slabs, base) = slabs(t, rows);
+    let Slabs { slabs, base } = &Slabs::new(t, rows);
     let [first, end] = [columns.start - base, columns.end - base];
     let mut slab = 0;
     // Written so that the compiler doesn't write what follows twice.
@@ -66,32 +66,39 @@ struct Slab {
 }
 
 /// The slabs of a triangle and the column from which they count.
-#[inline(never)]
-fn slabs(t: &Triangle, rows: Range<i32>) -> ([Slab; 2], i32) {
-    let base = t.min()[0];
-    let ([a, b, c], mut turned) = (t.corners.map(|[x, y]| [x - 16 * base, y]), t.turned);
-    let mut sort = |[a, b]: [[i32; 2]; 2]| {
-        let swap = b[1] < a[1];
-        turned ^= swap;
-        if swap { [b, a] } else { [a, b] }
-    };
-    let [a, b] = sort([a, b]);
-    let [b, c] = sort([b, c]);
-    let [a, b] = sort([a, b]);
-    let first = first_pixel(a[1]).max(rows.start);
-    let end = first_pixel(c[1]).min(rows.end).max(first);
-    let turn = first_pixel(b[1]).clamp(first, end);
-    let mut slabs = [Slab::default(); 2];
-    let mut long = if first < end { Side::new(a, c, first) } else { Side::default() };
-    for (slab, (from, to, top, below)) in
-        slabs.iter_mut().zip([(a, b, first, turn), (b, c, turn, end)])
-    {
-        if top < below {
-            let short = Side::new(from, to, top);
-            slab.sides = if turned { [short, long] } else { [long, short] };
-            slab.rows = [top, below];
-            long.x = long.x.wrapping_add(long.step.wrapping_mul(below - top));
+struct Slabs {
+    slabs: [Slab; 2],
+    base: i32,
+}
+
+impl Slabs {
+    #[inline(never)]
+    fn new(t: &Triangle, rows: Range<i32>) -> Slabs {
+        let base = t.min()[0];
+        let ([a, b, c], mut turned) = (t.corners.map(|[x, y]| [x - 16 * base, y]), t.turned);
+        let mut sort = |[a, b]: [[i32; 2]; 2]| {
+            let swap = b[1] < a[1];
+            turned ^= swap;
+            if swap { [b, a] } else { [a, b] }
+        };
+        let [a, b] = sort([a, b]);
+        let [b, c] = sort([b, c]);
+        let [a, b] = sort([a, b]);
+        let first = first_pixel(a[1]).max(rows.start);
+        let end = first_pixel(c[1]).min(rows.end).max(first);
+        let turn = first_pixel(b[1]).clamp(first, end);
+        let mut slabs = [Slab::default(); 2];
+        let mut long = if first < end { Side::new(a, c, first) } else { Side::default() };
+        for (slab, (from, to, top, below)) in
+            slabs.iter_mut().zip([(a, b, first, turn), (b, c, turn, end)])
+        {
+            if top < below {
+                let short = Side::new(from, to, top);
+                slab.sides = if turned { [short, long] } else { [long, short] };
+                slab.rows = [top, below];
+                long.x = long.x.wrapping_add(long.step.wrapping_mul(below - top));
+            }
         }
+        Slabs { slabs, base }
     }
-    (slabs, base)
 }
