@@ -27,12 +27,33 @@ pub(super) struct Walked<'a, S, W> {
 pub(super) trait Way {
     /// Only small triangles go this way, and each run in one block.
     const SMALL: bool = false;
+    /// The pixels of a run.
+    type Block: Walk;
     /// How many pixels a block may have.
     fn longest(&self) -> i32;
     /// The `count` pixels from (x, y) on.
-    fn block(&self, x: i32, y: i32, count: u32) -> Block;
+    fn block(&self, x: i32, y: i32, count: u32) -> Self::Block;
     /// The texel by the definition.
     fn texel(&self, x: i32, y: i32) -> Option<[u32; 2]>;
+}
+
+/// Pixels of a run, one after another.
+pub(super) trait Walk: Copy {
+    /// To the next pixel.
+    fn step(&mut self);
+    /// The texel, if it is certain.
+    fn texel(&self) -> Option<[u32; 2]>;
+}
+
+impl<const FRACTION: u32> Walk for Block<FRACTION> {
+    #[inline(always)]
+    fn step(&mut self) {
+        self.step();
+    }
+    #[inline(always)]
+    fn texel(&self) -> Option<[u32; 2]> {
+        self.texel()
+    }
 }
 
 /// [`Along`] the rows.
@@ -56,19 +77,21 @@ impl ByRows {
     }
 
     #[inline(always)]
-    fn one(&self, x: i32, y: i32) -> Block {
+    fn one(&self, x: i32, y: i32) -> Block<16> {
         let [s, t] = &self.setup.st;
         Block::one(&self.setup, self.size, self.q.at(x, y), [s.at(x, y), t.at(x, y)])
     }
 }
 
 impl Way for ByRows {
+    type Block = Block<16>;
+
     #[inline(always)]
     fn longest(&self) -> i32 {
         self.along.length() as i32
     }
     #[inline(always)]
-    fn block(&self, x: i32, y: i32, count: u32) -> Block {
+    fn block(&self, x: i32, y: i32, count: u32) -> Block<16> {
         // A block costs as much as two pixels of the definition.
         if count < 2 {
             return self.one(x, y);
@@ -96,14 +119,15 @@ pub(super) struct BySteps<'a> {
 
 impl Way for BySteps<'_> {
     const SMALL: bool = true;
+    type Block = Block<22>;
 
     #[inline(always)]
     fn longest(&self) -> i32 {
         i32::MAX
     }
     #[inline(always)]
-    fn block(&self, x: i32, y: i32, count: u32) -> Block {
-        self.across.block(x, y, count)
+    fn block(&self, x: i32, y: i32, _count: u32) -> Block<22> {
+        self.across.block(x, y)
     }
     #[cold]
     #[inline(never)]
@@ -117,7 +141,7 @@ impl Way for BySteps<'_> {
 
 impl<S: Shader, W: Way> Walked<'_, S, W> {
     #[inline(always)]
-    fn texel(&self, block: &Block, x: i32, y: i32) -> u16 {
+    fn texel(&self, block: &W::Block, x: i32, y: i32) -> u16 {
         let texel = block.texel().or_else(|| self.way.texel(x, y));
         self.sampler.inside(texel.unwrap_or_default())
     }
@@ -125,7 +149,7 @@ impl<S: Shader, W: Way> Walked<'_, S, W> {
 
 impl<S: Shader, W: Way> Shader for Walked<'_, S, W> {
     /// The inner shader's, the block and the place.
-    type Pixel = (S::Pixel, Block, i32, i32);
+    type Pixel = (S::Pixel, W::Block, i32, i32);
     type Ramps = ();
     const IN_BLOCKS: bool = true;
     const SMALL: bool = W::SMALL;

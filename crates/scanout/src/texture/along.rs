@@ -23,6 +23,9 @@
 use super::perspective::{Perspective, column_and_row, integer_q, reciprocal};
 use crate::interpolate::Plane;
 
+/// Fraction bits of a coordinate.
+const FRACTION: u32 = 16;
+
 /// The longest block in pixels.
 const LONGEST: u32 = 32;
 
@@ -47,28 +50,30 @@ pub struct Along {
     rounded: [u32; 2],
 }
 
-/// Texel coordinates from pixel to pixel.
+/// Texel coordinates from pixel to pixel, with so many fraction bits.
 #[derive(Clone, Copy, Debug)]
-pub struct Block {
+pub struct Block<const FRACTION: u32> {
     /// The coordinates less the margin.
     pub(super) at: [u32; 2],
     pub(super) step: [u32; 2],
     pub(super) bend: [u32; 2],
-    /// A texel is certain where both fractions lie below: 2^16 less twice the margin.
+    /// A texel is certain where both fractions lie below: 1 less twice the margin.
     pub(super) limit: u32,
 }
 
-impl Block {
-    /// Nothing is certain.
-    pub(super) const NONE: Block = Block { at: [0; 2], step: [0; 2], bend: [0; 2], limit: 0 };
-
+impl Block<FRACTION> {
     /// A single pixel, by the definition: values of the planes as for [`Along::block`].
     #[inline(never)]
-    pub fn one(perspective: &Perspective, size: [u64; 2], q: u32, st: [u32; 2]) -> Block {
+    pub fn one(perspective: &Perspective, size: [u64; 2], q: u32, st: [u32; 2]) -> Self {
         let r = reciprocal(integer_q(q));
         let texel = column_and_row(size, perspective.shift, st, r);
-        Block { at: texel.map(|v| (v as u32) << 16), limit: 1 << 16, ..Block::NONE }
+        Block { at: texel.map(|v| (v as u32) << FRACTION), limit: 1 << FRACTION, ..Block::NONE }
     }
+}
+
+impl<const FRACTION: u32> Block<FRACTION> {
+    /// Nothing is certain.
+    pub(super) const NONE: Self = Block { at: [0; 2], step: [0; 2], bend: [0; 2], limit: 0 };
 
     /// To the next pixel.
     #[inline(always)]
@@ -83,7 +88,9 @@ impl Block {
     #[inline(always)]
     pub fn texel(&self) -> Option<[u32; 2]> {
         let [s, t] = self.at;
-        (s & 0xffff < self.limit && t & 0xffff < self.limit).then_some([s >> 16, t >> 16])
+        let fraction = (1 << FRACTION) - 1;
+        (s & fraction < self.limit && t & fraction < self.limit)
+            .then_some([s >> FRACTION, t >> FRACTION])
     }
 }
 
@@ -134,7 +141,7 @@ impl Along {
 
     /// A block of `count` pixels, two at least, from one with these values of the planes.
     #[inline]
-    pub fn block(&self, q: u32, st: [u32; 2], count: u32) -> Block {
+    pub fn block(&self, q: u32, st: [u32; 2], count: u32) -> Block<FRACTION> {
         if count < 2 || count > self.length || q >> 8 < LEAST_Q {
             return Block::NONE;
         }
