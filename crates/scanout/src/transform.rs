@@ -23,7 +23,7 @@
 //! Error of a screen position of a vertex inside the view volume: 1/32 pixel (rounding) and 2^-28 of w. What it will not do:
 //! positions wider than 16 bits (split the mesh).
 
-use crate::math::{Mat4, recip32};
+use crate::math::{Mat4, NARROW, recip32};
 
 /// The vertex lies before the near plane (or has no positive w).
 pub const NEAR: u8 = 1 << 5;
@@ -91,9 +91,18 @@ impl ClipMatrix {
     }
 }
 
-/// A [`ClipMatrix`] for many positions in a row: entries widened, half a unit in the last place added to the last column.
+/// A [`ClipMatrix`] for many positions in a row, in the way that suits the machine.
+#[cfg(target_pointer_width = "64")]
+pub(crate) type ManyPositions = WideMatrix;
+/// A [`ClipMatrix`] for many positions in a row, in the way that suits the machine.
+#[cfg(not(target_pointer_width = "64"))]
+pub(crate) type ManyPositions = HalvedMatrix;
+
+/// Entries widened, half a unit in the last place added to the last column.
+#[cfg_attr(not(target_pointer_width = "64"), allow(dead_code))]
 pub(crate) struct WideMatrix([[i64; 4]; 4]);
 
+#[cfg_attr(not(target_pointer_width = "64"), allow(dead_code))]
 impl WideMatrix {
     /// Of a matrix.
     #[inline]
@@ -111,6 +120,43 @@ impl WideMatrix {
         [0, 1, 2, 3].map(|i: usize| {
             let row = &self.0[i];
             ((row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]) >> 15) as i32
+        })
+    }
+}
+
+/// Entries in halves, `m = high 2^15 + low` with |low| <= 2^14, so that products and sums keep to 32 bits.
+///
+/// The sum of three products of low halves is at most 3 2^14 2^15 < 2^31 - 2^14; whole multiples of 2^15 may be added after the shift,
+/// modulo 2^32, as the result is below 2^31.
+pub(crate) struct HalvedMatrix([HalvedRow; 4]);
+
+struct HalvedRow {
+    high: [i32; 3],
+    low: [i32; 3],
+    last: i32,
+}
+
+impl HalvedMatrix {
+    /// Of a matrix.
+    #[inline]
+    pub fn new(matrix: &ClipMatrix) -> HalvedMatrix {
+        HalvedMatrix(matrix.m.map(|[x, y, z, last]| {
+            let high = [x, y, z].map(|m| (m + (1 << 14)) >> 15);
+            let low = [x - (high[0] << 15), y - (high[1] << 15), z - (high[2] << 15)];
+            HalvedRow { high, low, last }
+        }))
+    }
+
+    /// As [`ClipMatrix::apply`].
+    #[inline(always)]
+    pub fn apply(&self, p: [i16; 3]) -> [i32; 4] {
+        let p = p.map(i32::from);
+        [0, 1, 2, 3].map(|i: usize| {
+            let HalvedRow { high, low, last } = &self.0[i];
+            let rest = low[0] * p[0] + low[1] * p[1] + low[2] * p[2] + (1 << 14);
+            [0, 1, 2].iter().fold(last.wrapping_add(rest >> 15), |sum, &k: &usize| {
+                sum.wrapping_add(high[k].wrapping_mul(p[k]))
+            })
         })
     }
 }
@@ -164,16 +210,24 @@ impl Viewport {
     /// Which planes of the view volume need the clip stage for this vertex.
     #[inline(always)]
     pub fn clip_flags(c: &[i32; 4]) -> u8 {
-        let [x, y, z, w] = c.map(i64::from);
-        let guard = w << GUARD_BITS;
         // Most vertices need none: one test of all the signs tells.
-        let signs = z | (w - 1) | (w - z) | (guard - x) | (guard + x) | (guard - y) | (guard + y);
-        if signs >= 0 { 0 } else { Self::flags_outside(x, y, z, w) }
+        let outside = if NARROW {
+            // x <= 2^13 w is floor((x - 1) / 2^13) < w, and -x - 1 is !x.
+            let [x, y, z, w] = *c;
+            let over = |v: i32| (w - 1 - ((v - 1) >> GUARD_BITS)) | (w - 1 - (!v >> GUARD_BITS));
+            z | (w - 1) | (w - z) | over(x) | over(y) < 0
+        } else {
+            let [x, y, z, w] = c.map(i64::from);
+            let guard = w << GUARD_BITS;
+            z | (w - 1) | (w - z) | (guard - x) | (guard + x) | (guard - y) | (guard + y) < 0
+        };
+        if outside { Self::flags_outside(c[0], c[1], c[2], c[3]) } else { 0 }
     }
 
     #[cold]
     #[inline(never)]
-    fn flags_outside(x: i64, y: i64, z: i64, w: i64) -> u8 {
+    fn flags_outside(x: i32, y: i32, z: i32, w: i32) -> u8 {
+        let [x, y, z, w] = [x, y, z, w].map(i64::from);
         let mut flags = 0;
         if z < 0 || w <= 0 {
             flags |= NEAR;
@@ -295,6 +349,7 @@ mod tests {
                 let p = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { i16::MIN } else { i16::MAX });
                 assert!(m.apply(p).iter().all(|c| c.unsigned_abs() <= (1 << 30) + 4));
                 assert_eq!(WideMatrix::new(&m).apply(p), m.apply(p));
+                assert_eq!(HalvedMatrix::new(&m).apply(p), m.apply(p));
             }
         }
         assert_eq!(ClipMatrix::new(&Mat4 { m: [[0; 4]; 4] }).apply([1, 2, 3]), [0; 4]);

@@ -13,11 +13,11 @@ use crate::clip::Corner;
 use crate::cull::{ClusterView, sphere_outside};
 use crate::features;
 use crate::light::{Lighting, PlainLight};
-use crate::math::normalise_q14;
+use crate::math::{NARROW, normalise_q14};
 use crate::mesh::{Mesh, Normals};
 use crate::scene::{Mode, Object, Scene};
 use crate::shade::{FogWeights, modulate};
-use crate::transform::{ClipMatrix, PENDING, Vertex, Viewport, WideMatrix};
+use crate::transform::{ClipMatrix, HalvedMatrix, ManyPositions, PENDING, Vertex, Viewport};
 
 /// Edges that may become one primitive.
 pub(super) const TOGETHER: usize = 32;
@@ -376,8 +376,11 @@ impl ObjectPass<'_> {
         if let Some(avx2) = self.avx2 {
             avx2.project(&self.viewport, self.clip, some, *rgb, vertices);
         } else {
+            let halves = HalvedMatrix::new(self.clip);
             for (vertex, &position) in vertices.iter_mut().zip(some) {
-                *vertex = self.viewport.project(&self.clip.apply(position));
+                let halved = NARROW.then(|| halves.apply(position));
+                let clip = halved.unwrap_or_else(|| self.clip.apply(position));
+                *vertex = self.viewport.project(&clip);
                 vertex.rgb = *rgb;
             }
         }
@@ -394,7 +397,7 @@ impl ObjectPass<'_> {
     fn complete(&self, vertices: &mut [Vertex], triangles: &[[u16; 3]]) {
         let positions = self.object.mesh.positions;
         let coloured = features::VERTEX_COLOURS && !self.object.mesh.colours.is_empty();
-        let matrix = WideMatrix::new(self.clip);
+        let matrix = ManyPositions::new(self.clip);
         // Of one length, so that one test is enough.
         let vertices = &mut vertices[..positions.len()];
         for &i in triangles.as_flattened() {
