@@ -29,7 +29,7 @@
 //! What it will not do: triangles without area (there is nothing to draw).
 
 use crate::interpolate::Plane;
-use crate::math::{NARROW, floor};
+use crate::math::{NARROW, NO_DIVISION, floor};
 
 /// An edge: a pixel is inside where `a x + b y + k >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -75,6 +75,14 @@ pub struct Triangle {
 /// Twice the area with its sign, 1/256 pixel^2: positive for clockwise corners on the screen. Coordinates within +-2^29.
 #[inline(always)]
 pub fn signed_area(v: &[[i32; 2]; 3]) -> i64 {
+    if NO_DIVISION {
+        // Where a product of 64 bits is a call: differences of 16 bits, as most are, need none.
+        let [x1, y1] = [v[1][0] - v[0][0], v[1][1] - v[0][1]];
+        let [x2, y2] = [v[2][0] - v[0][0], v[2][1] - v[0][1]];
+        if [x1, y1, x2, y2].iter().fold(0, |all, &d| all | (d + (1 << 14)) as u32) >> 15 == 0 {
+            return (x1 * y2 - x2 * y1) as i64;
+        }
+    }
     // Widened where that costs least.
     let minus = |a: i32, b: i32| if NARROW { (a - b) as i64 } else { a as i64 - b as i64 };
     let d1 = [minus(v[1][0], v[0][0]), minus(v[1][1], v[0][1])];
