@@ -23,7 +23,7 @@
 //! Error of a screen position of a vertex inside the view volume: 1/32 pixel (rounding) and 2^-28 of w. What it will not do:
 //! positions wider than 16 bits (split the mesh).
 
-use crate::math::{Mat4, NARROW, recip32};
+use crate::math::{Mat4, NARROW, mixed_product, recip32};
 
 /// The vertex lies before the near plane (or has no positive w).
 pub const NEAR: u8 = 1 << 5;
@@ -257,7 +257,7 @@ impl Viewport {
         let w = c[3] as u32;
         let lz = w.leading_zeros();
         let r = recip32(w << lz);
-        let ratio = |v: i32| (v as i64 * r as i64) >> 31;
+        let ratio = |v: i32| mixed_product(v, r) >> 31;
         // Ratios are below 2^(45 - lz) in size, so nothing is lost on the left.
         let places = |v: i32, half: i64| (((ratio(v) * half) << lz) + (1 << 31)) >> 32;
         let x = self.half[0] + places(c[0], self.half[0]);

@@ -39,39 +39,72 @@ pub(crate) fn reciprocal_by_seeds(q: u32) -> u32 {
     quotient
 }
 
-/// `floor(n / d)` for `d` from 1 below 2^24, without a division: digits of eight bits, guessed from the same seeds.
+/// Division by `d` from 1 below 2^24 without a division: digits of eight bits, guessed from the same seeds.
 ///
 /// The divisor is shifted up to 24 bits, and so is what remains of each digit; so a dividend, below `256 d`, has at most 32.
-#[inline(never)]
-fn by_seeds(n: u64, d: u32) -> u64 {
-    let s = d.leading_zeros() - 8;
-    let d = d << s;
-    let seed = RECIP_SEED[(d >> 15) as usize & 255] as u32;
-    let mut rest = 0u32;
-    let mut digits = |word: u32| {
+struct BySeeds {
+    shift: u32,
+    /// Shifted.
+    d: u32,
+    seed: u32,
+    /// What remains of the digits so far, shifted.
+    rest: u32,
+}
+
+impl BySeeds {
+    #[inline(always)]
+    fn new(d: u32) -> BySeeds {
+        let shift = d.leading_zeros() - 8;
+        let d = d << shift;
+        BySeeds { shift, d, seed: RECIP_SEED[(d >> 15) as usize & 255] as u32, rest: 0 }
+    }
+
+    /// The quotient's next four digits, for the dividend's next word.
+    #[inline(always)]
+    fn digits(&mut self, word: u32) -> u32 {
         let (mut quotient, mut shift) = (0u32, 32);
         // Bytes that are zero have the digit zero.
-        while rest == 0 && shift != 0 && word >> (shift - 8) == 0 {
+        while self.rest == 0 && shift != 0 && word >> (shift - 8) == 0 {
             shift -= 8;
         }
         while shift != 0 {
             shift -= 8;
-            let dividend = (rest << 8) + (((word >> shift) & 255) << s);
-            let mut digit = ((dividend >> 16) * seed) >> 23;
-            rest = dividend.wrapping_sub(digit.wrapping_mul(d));
+            let dividend = (self.rest << 8) + (((word >> shift) & 255) << self.shift);
+            let mut digit = ((dividend >> 16) * self.seed) >> 23;
+            let mut rest = dividend.wrapping_sub(digit.wrapping_mul(self.d));
             if rest as i32 >> 24 < 0 {
-                rest = rest.wrapping_add(d);
+                rest = rest.wrapping_add(self.d);
                 digit -= 1;
-            } else if rest >= d {
-                rest -= d;
+            } else if rest >= self.d {
+                rest -= self.d;
                 digit += 1;
             }
+            self.rest = rest;
             quotient = (quotient << 8) + digit;
         }
         quotient
-    };
-    let high = digits((n >> 32) as u32);
-    (high as u64) << 32 | digits(n as u32) as u64
+    }
+}
+
+/// `floor(n / d)` for `d` from 1 below 2^24.
+#[inline(never)]
+fn by_seeds(n: u64, d: u32) -> u64 {
+    let mut division = BySeeds::new(d);
+    let high = division.digits((n >> 32) as u32);
+    (high as u64) << 32 | division.digits(n as u32) as u64
+}
+
+/// `floor(n / d)` for `d` from 1 below 2^24.
+#[inline(always)]
+pub(crate) fn quotient(n: u32, d: u32) -> u32 {
+    // With 1 instead of 0, which never comes, no check remains.
+    let d = d.max(1);
+    if NO_DIVISION { short_by_seeds(n, d) } else { n / d }
+}
+
+#[inline(never)]
+fn short_by_seeds(n: u32, d: u32) -> u32 {
+    BySeeds::new(d).digits(n)
 }
 
 /// `floor(n / d)` for `d` from 1 below 2^16: 32 bits, then 16 and 16.
@@ -129,6 +162,7 @@ mod tests {
             assert_eq!(narrow_quotient(n as u64, d as u64), n as u64 / d as u64, "{n} {d}");
             let few = (d as u32 >> 8).max(1);
             assert_eq!(by_seeds(n as u64, few), n as u64 / few as u64, "{n} {few}");
+            assert_eq!(short_by_seeds(n as u32, few), n as u32 / few, "{n} {few}");
             assert_eq!(floor(n, d), n.div_euclid(d), "{n} {d}");
         }
     }

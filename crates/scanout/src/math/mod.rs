@@ -22,6 +22,7 @@
 mod division;
 mod fixed;
 mod mat;
+mod product;
 mod quat;
 mod recip;
 mod root;
@@ -29,7 +30,7 @@ mod trig;
 mod unit;
 mod vec;
 
-pub(crate) use division::{NARROW, NO_DIVISION, floor, reciprocal_by_seeds};
+pub(crate) use division::{NARROW, NO_DIVISION, floor, quotient, reciprocal_by_seeds};
 pub use fixed::Q16;
 pub use mat::Mat4;
 pub use quat::Quat;
@@ -48,6 +49,7 @@ pub mod tables {
 
 pub(crate) use fixed::{add_product, div_by_large, div_nearest, q32_from_f64};
 pub(crate) use fixed::{saturate32, saturate64, shift_right_nearest};
+pub(crate) use product::mixed_product;
 
 /// Tells the compiler which way of two is the rarer one.
 #[cold]

@@ -12,6 +12,7 @@
 //! What it will not do: reciprocals of numbers that aren't normalised; see [`normalise_mantissa`].
 
 use super::NARROW;
+use super::product::{mixed_product, product};
 
 /// `floor((2^63 - 1) / m)`, exact, for `m` >= 2^31. The top bit of `m` is taken as set.
 ///
@@ -46,21 +47,21 @@ pub static RECIP_SEED: [u16; 256] = {
 /// Cost: a table read, five products of 32 x 32 -> 64 bits, at most three subtractions.
 #[inline]
 pub const fn recip32_newton(m: u32) -> u32 {
-    let m = (m | 1 << 31) as u64;
-    let mut r = (RECIP_SEED[(m >> 23) as usize & 255] as u64) << 16;
+    let m = m | 1 << 31;
+    let mut r = (RECIP_SEED[(m >> 23) as usize & 255] as u32) << 16;
     let mut step = 0;
     while step < 2 {
         // 1 - m r in Q32: below 2^-8 in magnitude, so 25 bits and a sign.
-        let e = ((1i64 << 63).wrapping_sub((m * r) as i64)) >> 31;
-        r = (r as i64 + ((r as i64 * e) >> 32)) as u64;
+        let e = ((1i64 << 63).wrapping_sub(product(m, r) as i64)) >> 31;
+        r = r.wrapping_add((mixed_product(e as i32, r) >> 32) as u32);
         step += 1;
     }
-    let mut rest = ((1 << 63) - 1) - m * r;
-    while rest >= m {
-        rest -= m;
+    let mut rest = ((1 << 63) - 1) - product(m, r);
+    while rest >= m as u64 {
+        rest -= m as u64;
         r += 1;
     }
-    r as u32
+    r
 }
 
 /// The leading one of `n` moved to bit 31: `(m, shift)` with `m = floor(n * 2^shift / 2^32)`, so

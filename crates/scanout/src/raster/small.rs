@@ -7,6 +7,7 @@
 use core::ops::Range;
 
 use super::triangle::Run;
+use crate::math::quotient;
 use crate::setup::{Triangle, first_pixel};
 
 /// The widest and highest box, 1/16 pixel.
@@ -30,7 +31,7 @@ impl Side {
         let (dx, dy) = ((to[0] - x) << FRACTION, to[1] - y);
         // floor(dx / dy)
         let sign = dx >> 31;
-        let step = ((dx ^ sign) as u32 / (dy as u32).max(1)) as i32 ^ sign;
+        let step = quotient((dx ^ sign) as u32, dy as u32) as i32 ^ sign;
         let down = 16 * row + 8 - y;
         Side { x: ((x - 8) << (FRACTION - 4)) + ((down * step) >> 4) + ALMOST_ONE, step }
     }

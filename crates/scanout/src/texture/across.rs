@@ -31,6 +31,7 @@
 use super::MAX_SIZE;
 use super::along::Block;
 use super::perspective::reciprocal;
+use crate::math::{mixed_product, quotient};
 use crate::raster::small::LARGEST;
 use crate::setup::Triangle;
 
@@ -97,7 +98,7 @@ impl Across {
             return None;
         }
         // 2^34 / middle; products below 2^31.
-        let ratio = (1 << 31) / (middle >> 3).max(1);
+        let ratio = quotient(1 << 31, middle >> 3);
         let b = q.map(|q| ((q as i32 - middle as i32) * ratio as i32 + (1 << 13)) >> 14);
         let most = b[0].unsigned_abs().max(b[1].unsigned_abs()).max(b[2].unsigned_abs());
 
@@ -110,7 +111,7 @@ impl Across {
         let mut gradient = |first: i32, second: i32, weights: [i32; 2], fewer: u32| {
             let n = first * weights[0] + second * weights[1];
             room |= n.unsigned_abs() >> (30 - more);
-            let high = (((n << more) as i64 * ((inverse << 7) as i64)) >> 32) as i32;
+            let high = (mixed_product(n << more, inverse << 7) >> 32) as i32;
             (high + ((1 << fewer) >> 1)) >> fewer
         };
 
