@@ -23,7 +23,7 @@
 //! Error of a screen position of a vertex inside the view volume: 1/32 pixel (rounding) and 2^-28 of w. What it will not do:
 //! positions wider than 16 bits (split the mesh).
 
-use crate::math::{Mat4, NARROW, mixed_product, recip32};
+use crate::math::{Mat4, NARROW, leading_zeros, mixed_product, recip32};
 
 /// The vertex lies before the near plane (or has no positive w).
 pub const NEAR: u8 = 1 << 5;
@@ -255,7 +255,7 @@ impl Viewport {
             return Vertex { flags, ..Vertex::default() };
         }
         let w = c[3] as u32;
-        let lz = w.leading_zeros();
+        let lz = leading_zeros(w);
         let r = recip32(w << lz);
         let ratio = |v: i32| mixed_product(v, r) >> 31;
         // Ratios are below 2^(45 - lz) in size, so nothing is lost on the left.

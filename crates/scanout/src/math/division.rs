@@ -12,11 +12,43 @@ pub(crate) const NARROW: bool = cfg!(target_pointer_width = "32");
 /// A machine without any division (Armv6-M, known by what else it lacks): one of 32 bits is a call of a hundred instructions.
 pub(crate) const NO_DIVISION: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
+/// A machine that has no instruction for leading zeros, and a long way to count them.
+const NO_LEADING_ZEROS: bool = NO_DIVISION
+    || cfg!(all(
+        any(target_arch = "riscv32", target_arch = "riscv64"),
+        not(target_feature = "zbb")
+    ));
+
+/// How many leading zeros `n`, which isn't 0, has.
+#[inline(always)]
+pub(crate) const fn leading_zeros(n: u32) -> u32 {
+    if NO_LEADING_ZEROS { zeros_by_halves(n) } else { n.leading_zeros() }
+}
+
+/// The same for `n` that isn't 0, half by half.
+#[inline(always)]
+const fn zeros_by_halves(mut n: u32) -> u32 {
+    let mut zeros = 0;
+    if n >> 16 == 0 {
+        (n, zeros) = (n << 16, 16);
+    }
+    if n >> 24 == 0 {
+        (n, zeros) = (n << 8, zeros + 8);
+    }
+    if n >> 28 == 0 {
+        (n, zeros) = (n << 4, zeros + 4);
+    }
+    if n >> 30 == 0 {
+        (n, zeros) = (n << 2, zeros + 2);
+    }
+    zeros + (n >> 31 == 0) as u32
+}
+
 /// `floor((2^47 - 1) / q)` for `q` in [2^15, 2^24), without a division: four digits of eight bits, each guessed from the seeds
 /// of [`recip32_newton`](super::recip32_newton), which are right to 2^-9, and set right by one at most.
 #[inline(never)]
 pub(crate) fn reciprocal_by_seeds(q: u32) -> u32 {
-    let s = q.leading_zeros() - 8;
+    let s = leading_zeros(q) - 8;
     let q = q << s;
     let seed = RECIP_SEED[(q >> 15) as usize & 255] as u32;
     // (2^47 - 1) 2^s: what is above 32 bits is below q; the rest is ones, then s zeros.
@@ -54,7 +86,7 @@ struct BySeeds {
 impl BySeeds {
     #[inline(always)]
     fn new(d: u32) -> BySeeds {
-        let shift = d.leading_zeros() - 8;
+        let shift = leading_zeros(d) - 8;
         let d = d << shift;
         BySeeds { shift, d, seed: RECIP_SEED[(d >> 15) as usize & 255] as u32, rest: 0 }
     }
@@ -150,6 +182,15 @@ mod tests {
         }
         for q in (15..24).flat_map(|bit| [(1 << bit), (1 << bit) + 1, (2 << bit) - 1]) {
             assert_eq!(reciprocal_by_seeds(q) as u64, ((1u64 << 47) - 1) / q as u64, "{q}");
+        }
+    }
+
+    #[test]
+    fn zeros_are_counted() {
+        for bit in 0..32 {
+            for n in [1u32 << bit, u32::MAX >> bit, (1 << bit) | 1] {
+                assert_eq!(zeros_by_halves(n), n.leading_zeros(), "{n:#x}");
+            }
         }
     }
 

@@ -30,7 +30,9 @@ mod trig;
 mod unit;
 mod vec;
 
-pub(crate) use division::{NARROW, NO_DIVISION, floor, quotient, reciprocal_by_seeds};
+pub(crate) use division::{
+    NARROW, NO_DIVISION, floor, leading_zeros, quotient, reciprocal_by_seeds,
+};
 pub use fixed::Q16;
 pub use mat::Mat4;
 pub use quat::Quat;

@@ -31,7 +31,7 @@
 use super::MAX_SIZE;
 use super::along::Block;
 use super::perspective::reciprocal;
-use crate::math::{mixed_product, quotient};
+use crate::math::{leading_zeros, mixed_product, quotient};
 use crate::raster::small::LARGEST;
 use crate::setup::Triangle;
 
@@ -92,7 +92,7 @@ impl Across {
         let [width, height] = [extent(0), extent(1)];
         let (low, high) = (q[0].min(q[1]).min(q[2]), q[0].max(q[1]).max(q[2]));
         let middle = (low + high) / 2;
-        let normal = (t.area as u32).leading_zeros();
+        let normal = leading_zeros(t.area as u32 | 1);
         // Twice the area is at least 1/8 pixel.
         if width.max(height) > LARGEST || normal > 26 || (high - low) * 8 > middle {
             return None;

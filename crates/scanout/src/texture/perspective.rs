@@ -6,7 +6,7 @@
 use super::{Filter, MAX_LEVELS, SUBTEXEL_BITS, Texels, Texture, Wrap};
 use crate::features;
 use crate::interpolate::Plane;
-use crate::math::{NARROW, NO_DIVISION, reciprocal_by_seeds, seldom};
+use crate::math::{NARROW, NO_DIVISION, leading_zeros, reciprocal_by_seeds, seldom};
 use crate::output::widen565;
 use crate::setup::Triangle;
 
@@ -98,16 +98,24 @@ impl Perspective {
     /// From the corners' places in the texture, 1/4096 texel below 2^38, and their 1/w (integers, the largest in [2^22, 2^23)).
     #[inline(always)]
     pub(super) fn new(t: &Triangle, local: &[[u64; 3]; 2], q: [u32; 3]) -> (Perspective, bool) {
+        let (values, shift) = Perspective::values(local, q);
+        let (st, fit) = t.planes_and_fit(values);
+        (Perspective { st, shift }, fit)
+    }
+
+    /// What the planes go through, and the shifts.
+    #[inline(always)]
+    fn values(local: &[[u64; 3]; 2], q: [u32; 3]) -> ([[u32; 3]; 2], [u32; 2]) {
         let mut shift = [0; 2];
         let values = [0, 1].map(|axis: usize| {
             let products = [0, 1, 2].map(|i: usize| local[axis][i] * q[i] as u64);
             // The largest has the leading one of all of them together.
-            let drop = 33 - (products[0] | products[1] | products[2]).leading_zeros().min(33);
+            let over = ((products[0] | products[1] | products[2]) >> 31) as u32;
+            let drop = if over == 0 { 0 } else { 32 - leading_zeros(over) };
             shift[axis] = 47 - drop;
             products.map(|p| ((p + ((1 << drop) >> 1)) >> drop) as u32)
         });
-        let (st, fit) = t.planes_and_fit(values);
-        (Perspective { st, shift }, fit)
+        (values, shift)
     }
 
     /// Of a texture of `size` that repeats, and whether all changes a column fit 32 bits.
@@ -230,6 +238,23 @@ impl<'a> Repeat565<'a> {
         q: [u32; 3],
     ) -> (Perspective, bool) {
         Perspective::of_repeat(t, uv, q, self.size)
+    }
+
+    /// Sets a triangle up together with its depth and 1/w, whose planes have much in common with the texture's.
+    // As `setup`.
+    #[cfg_attr(target_arch = "x86_64", inline(always))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(never))]
+    pub(crate) fn setup_with(
+        &self,
+        t: &Triangle,
+        z: [u32; 3],
+        uv: [[i32; 2]; 3],
+        q: [u32; 3],
+    ) -> ([Plane; 2], Perspective) {
+        let (local, _) = local(uv, self.size.map(|size| size as u32));
+        let ([s_values, t_values], shift) = Perspective::values(&local, q);
+        let [z, q, s, t] = t.planes([z, q.map(|q| q << 8), s_values, t_values]);
+        ([z, q], Perspective { st: [s, t], shift })
     }
 
     /// A texel inside the texture.

@@ -89,9 +89,12 @@ impl<'a> Frame<'a> {
                         return draw_tabled(target, t, v, primitive.rgb, sampler, uv, q);
                     }
                     let rgb = primitive.rgb;
-                    let (z, inner) =
-                        (t.plane(v.map(|v| v.z)), Tinted { rgb, tint: Factors::new(rgb) });
-                    walk(target, t, &z, inner, sampler, uv, q);
+                    let (z, inner) = (v.map(|v| v.z), Tinted { rgb, tint: Factors::new(rgb) });
+                    if target.walks() {
+                        return walk(target, t, &t.plane(z), inner, sampler, uv, q);
+                    }
+                    let ([z, q], setup) = sampler.setup_with(t, z, uv, q);
+                    target.fill(t, &z, &Textured { inner, sampler, setup, q });
                 });
             }
             (true, Some(sampler)) => {
