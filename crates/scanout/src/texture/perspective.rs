@@ -241,7 +241,7 @@ impl<'a> Repeat565<'a> {
     }
 
     /// Sets a triangle up together with its depth and 1/w, whose planes have much in common with the texture's.
-    // As `setup`.
+    // Once a triangle: where flash is little, a call instead of a copy for each shader.
     #[cfg_attr(target_arch = "x86_64", inline(always))]
     #[cfg_attr(not(target_arch = "x86_64"), inline(never))]
     pub(crate) fn setup_with(
@@ -304,11 +304,14 @@ impl Sampler for Repeat565<'_> {
     type Setup = Perspective;
     const RGB565: bool = true;
 
-    // Once a triangle: where flash is little, a call instead of a copy for each shader.
-    #[cfg_attr(target_arch = "x86_64", inline(always))]
-    #[cfg_attr(not(target_arch = "x86_64"), inline(never))]
+    #[inline(always)]
     fn setup(&self, t: &Triangle, uv: [[i32; 2]; 3], q: [u32; 3]) -> Perspective {
-        self.setup_and_fit(t, uv, q).0
+        if cfg!(target_arch = "x86_64") {
+            self.setup_and_fit(t, uv, q).0
+        } else {
+            // By code that is there.
+            self.setup_with(t, [0; 3], uv, q).1
+        }
     }
     #[inline(always)]
     fn perspective(setup: &Perspective) -> &Perspective {

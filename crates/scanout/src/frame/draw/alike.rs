@@ -228,11 +228,12 @@ fn draw_tabled<F: PixelFormat>(
     uv: [[i32; 2]; 3],
     q: [u32; 3],
 ) {
-    let (z, inner) = (t.plane(v.map(|v| v.z)), Tinted { rgb, tint: Tables::new(rgb) });
+    let (z, inner) = (v.map(|v| v.z), Tinted { rgb, tint: Tables::new(rgb) });
     if target.walks() {
-        by_rows(target, t, &z, inner, sampler, uv, q);
+        by_rows(target, t, &t.plane(z), inner, sampler, uv, q);
     } else {
-        target.fill(t, &z, &Textured::new(t, inner, sampler, uv, q));
+        let ([z, q], setup) = sampler.setup_with(t, z, uv, q);
+        target.fill(t, &z, &Textured { inner, sampler, setup, q });
     }
 }
 
