@@ -211,17 +211,23 @@ impl Viewport {
     #[inline(always)]
     pub fn clip_flags(c: &[i32; 4]) -> u8 {
         // Most vertices need none: one test of all the signs tells.
-        let outside = if NARROW {
-            // x <= 2^13 w is floor((x - 1) / 2^13) < w, and -x - 1 is !x.
-            let [x, y, z, w] = *c;
-            let over = |v: i32| (w - 1 - ((v - 1) >> GUARD_BITS)) | (w - 1 - (!v >> GUARD_BITS));
-            z | (w - 1) | (w - z) | over(x) | over(y) < 0
-        } else {
-            let [x, y, z, w] = c.map(i64::from);
-            let guard = w << GUARD_BITS;
-            z | (w - 1) | (w - z) | (guard - x) | (guard + x) | (guard - y) | (guard + y) < 0
-        };
+        let outside = if NARROW { Self::outside_narrow(c) } else { Self::outside_wide(c) };
         if outside { Self::flags_outside(c[0], c[1], c[2], c[3]) } else { 0 }
+    }
+
+    /// Whether there is any flag, in 64 bits.
+    #[inline(always)]
+    fn outside_wide(c: &[i32; 4]) -> bool {
+        let [x, y, z, w] = c.map(i64::from);
+        let guard = w << GUARD_BITS;
+        z | (w - 1) | (w - z) | (guard - x) | (guard + x) | (guard - y) | (guard + y) < 0
+    }
+
+    /// The same in 32 bits: x <= 2^13 w is floor((x - 1) / 2^13) < w, and -x - 1 is !x.
+    #[inline(always)]
+    fn outside_narrow(&[x, y, z, w]: &[i32; 4]) -> bool {
+        let over = |v: i32| (w - 1 - ((v - 1) >> GUARD_BITS)) | (w - 1 - (!v >> GUARD_BITS));
+        z | (w - 1) | (w - z) | over(x) | over(y) < 0
     }
 
     #[cold]
@@ -390,6 +396,8 @@ mod tests {
             let expected =
                 outside.iter().fold(0, |all, &(flag, set)| if set { all | flag } else { all });
             assert_eq!(Viewport::clip_flags(&c), expected, "{c:?}");
+            assert_eq!(Viewport::outside_wide(&c), expected != 0, "{c:?}");
+            assert_eq!(Viewport::outside_narrow(&c), expected != 0, "{c:?}");
         }
     }
 
