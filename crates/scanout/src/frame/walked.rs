@@ -70,9 +70,8 @@ impl ByRows {
     #[cfg_attr(target_arch = "x86_64", inline(always))]
     #[cfg_attr(not(target_arch = "x86_64"), inline(never))]
     pub(super) fn new(t: &Triangle, size: [u64; 2], uv: [[i32; 2]; 3], q: [u32; 3]) -> ByRows {
-        let (setup, fit) = Perspective::of_repeat(t, uv, q, size);
-        let ([plane], also) = t.planes_and_fit([q.map(|q| q << 8)]);
-        let along = Along::new(&setup, &plane, q, size.map(|size| size as u32), fit && also);
+        let (setup, plane, fit) = Perspective::of_repeat(t, uv, q, size);
+        let along = Along::new(&setup, &plane, q, size.map(|size| size as u32), fit);
         ByRows { setup, q: plane, along, size }
     }
 

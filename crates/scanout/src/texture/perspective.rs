@@ -118,16 +118,18 @@ impl Perspective {
         (values, shift)
     }
 
-    /// Of a texture of `size` that repeats, and whether all changes a column fit 32 bits.
+    /// Of a texture of `size` that repeats, with the plane of 1/w, and whether all changes a column fit 32 bits.
     #[inline(always)]
     pub(crate) fn of_repeat(
         t: &Triangle,
         uv: [[i32; 2]; 3],
         q: [u32; 3],
         size: [u64; 2],
-    ) -> (Perspective, bool) {
+    ) -> (Perspective, Plane, bool) {
         let (local, _) = local(uv, size.map(|size| size as u32));
-        Perspective::new(t, &local, q)
+        let ([s_values, t_values], shift) = Perspective::values(&local, q);
+        let ([q, s, t], fit) = t.planes_and_fit([q.map(|q| q << 8), s_values, t_values]);
+        (Perspective { st: [s, t], shift }, q, fit)
     }
 }
 
@@ -237,7 +239,8 @@ impl<'a> Repeat565<'a> {
         uv: [[i32; 2]; 3],
         q: [u32; 3],
     ) -> (Perspective, bool) {
-        Perspective::of_repeat(t, uv, q, self.size)
+        let (local, _) = local(uv, self.size.map(|size| size as u32));
+        Perspective::new(t, &local, q)
     }
 
     /// Sets a triangle up together with its depth and 1/w, whose planes have much in common with the texture's.
