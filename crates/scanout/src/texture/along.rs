@@ -112,11 +112,13 @@ impl Along {
         // p, rounded up to 16 fraction bits: at covered pixels the plane lies above its least corner, but for rounding.
         let p =
             gradients[0].unsigned_abs() / ((least << 8).saturating_sub(1 << 13) >> 16).max(1) + 1;
-        // Blocks with p^2 n^3 up to 1/16 leave few pixels uncertain.
+        // Blocks with p^2 n^3 up to 3/32 leave few pixels uncertain.
         let mut length = LONGEST;
         let square = if p < 1 << 11 { p * p } else { u32::MAX };
-        while length > 2 && square as u64 * (length * length * length) as u64 > 1 << 28 {
-            length /= 2;
+        while length > 2
+            && (p * length > 1 << 13 || square as u64 * (length * length * length) as u64 > 3 << 27)
+        {
+            length -= length.div_ceil(8);
         }
         let cube = length * length * length;
         let shift = perspective.shift;
