@@ -3,8 +3,12 @@
 use core::cell::UnsafeCell;
 
 use crate::chip::{hal, timer};
+#[cfg(feature = "dma")]
+use crate::dma::DmaBus;
 use embedded_hal_bus::spi::ExclusiveDevice;
 use hal::clocks::init_clocks_and_plls;
+#[cfg(feature = "dma")]
+use hal::dma::DMAExt;
 use hal::fugit::RateExtU32;
 use hal::gpio::{FunctionSpi, FunctionUart, Pins};
 use hal::spi::Spi;
@@ -18,7 +22,10 @@ use scanout::frame::{Frame, ObjectState, Primitive, Settings, Store};
 use scanout::math::Q16;
 use scanout::transform::Vertex;
 use scanout_assets::bake::{Aligned, BakeError, read};
-use scanout_display::flush::show;
+#[cfg(feature = "dma")]
+use scanout_display::flush::{AsyncInterface, DoubleBuffer, block_on};
+#[cfg(not(feature = "dma"))]
+use scanout_display::flush::{BlockingInterface, show};
 use scanout_display::spi::SpiLink;
 use scanout_display::window::Area;
 
@@ -27,7 +34,9 @@ const CRYSTAL: u32 = 12_000_000;
 /// Frames of a model before the other one comes.
 const FRAMES: u32 = if cfg!(feature = "short") { 2 } else { 90 };
 /// Lines of a band.
-const LINES: usize = 4;
+const LINES: usize = if cfg!(feature = "dma") { 3 } else { 4 };
+/// Bands of colour: with DMA one is sent while the other is drawn.
+const BANDS: usize = if cfg!(feature = "dma") { 2 } else { 1 };
 /// Model A's positions and triangles.
 const MOST: (usize, usize) = (400, 800);
 
@@ -36,11 +45,14 @@ static MODELS: [(&Aligned<[u8]>, Q16); 2] = [
     (&Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/a.mesh"))), Q16::from_ratio(35, 100)),
 ];
 
+/// A band's colour or depth.
+type Band = [u16; WIDTH as usize * LINES];
+
 struct Memory {
     vertices: [Vertex; MOST.0],
     primitives: [Primitive; MOST.1],
-    colour: [u16; WIDTH as usize * LINES],
-    depth: [u16; WIDTH as usize * LINES],
+    colour: [Band; BANDS],
+    depth: Band,
 }
 
 struct Once(UnsafeCell<Memory>);
@@ -51,7 +63,7 @@ unsafe impl Sync for Once {}
 static MEMORY: Once = Once(UnsafeCell::new(Memory {
     vertices: [Vertex::EMPTY; MOST.0],
     primitives: [Primitive::EMPTY; MOST.1],
-    colour: [0; WIDTH as usize * LINES],
+    colour: [[0; WIDTH as usize * LINES]; BANDS],
     depth: [0; WIDTH as usize * LINES],
 }));
 
@@ -92,6 +104,12 @@ fn main() -> ! {
         62_500_000.Hz(),
         embedded_hal::spi::MODE_0,
     );
+    #[cfg(feature = "dma")]
+    let bus = {
+        let channel = chip.DMA.split(&mut chip.RESETS).ch0;
+        // SAFETY: `show_bands` leaks nothing.
+        unsafe { DmaBus::new(bus, channel, pins.gpio21.into_push_pull_output()) }
+    };
     let Ok(device) = ExclusiveDevice::new_no_delay(bus, pins.gpio17.into_push_pull_output());
     let link = SpiLink::new(device, pins.gpio16.into_push_pull_output());
     let display = Builder::new(ST7789, link)
@@ -121,7 +139,7 @@ fn main() -> ! {
                     let Memory { vertices, primitives, colour, depth } = &mut *memory;
                     let store = Store { vertices, primitives, objects: &mut objects };
                     let frame = Frame::prepare(scene, Settings::new(WIDTH, HEIGHT), store).ok()?;
-                    show(&frame, &mut link, Area::LANDSCAPE, colour, depth, |_| ()).ok()
+                    show_bands(&frame, &mut link, colour, depth)
                 });
                 let line: &[u8] = match shown {
                     Some(()) => b"frame\n",
@@ -131,6 +149,29 @@ fn main() -> ! {
             }
         }
     }
+}
+
+/// Draws and sends band by band.
+#[cfg(not(feature = "dma"))]
+fn show_bands(
+    frame: &Frame<'_>,
+    link: &mut impl BlockingInterface,
+    [colour]: &mut [Band; BANDS],
+    depth: &mut Band,
+) -> Option<()> {
+    show(frame, link, Area::LANDSCAPE, colour, depth, |_| ()).ok()
+}
+
+/// Draws a band while the one before it is sent.
+#[cfg(feature = "dma")]
+fn show_bands(
+    frame: &Frame<'_>,
+    link: &mut impl AsyncInterface,
+    [front, back]: &mut [Band; BANDS],
+    depth: &mut Band,
+) -> Option<()> {
+    let mut bands = DoubleBuffer::new([front, back], depth);
+    block_on(bands.show(frame, link, Area::LANDSCAPE, |_| ())).ok()
 }
 
 /// The model of baked bytes.

@@ -1,5 +1,6 @@
 //! Raspberry Pi Pico (RP2040, Cortex-M0+) with an ST7789 of 320 x 240: models C and A of system B, baked into flash, turn in
-//! bands of four lines, within 32 KB of memory. What it says goes to UART0.
+//! bands of four lines, within 32 KB of memory. What it says goes to UART0. With feature `dma` there are two bands of three
+//! lines: one is sent while the other is drawn.
 //!
 //! | display | Pico | |
 //! |---|---|---|
@@ -10,13 +11,15 @@
 //! | RES | GP20, pin 26 | |
 //! | VCC, BLK / GND | 3V3, pin 36 / pin 38 | |
 //!
-//! UART0: GP0 (pin 1), 115,200 baud.
+//! UART0: GP0 (pin 1), 115,200 baud. With `dma` GP21 (pin 27) is high while a band is sent and nothing waits for it.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
 mod board;
 #[cfg(target_os = "none")]
 mod chip;
+#[cfg(all(target_os = "none", feature = "dma"))]
+mod dma;
 
 #[cfg(not(target_os = "none"))]
 fn main() {

@@ -8,6 +8,9 @@
 mod board;
 #[cfg(target_os = "none")]
 mod chip;
+#[cfg(all(target_os = "none", feature = "dma"))]
+#[path = "../../rp2040/src/dma.rs"]
+mod dma;
 
 #[cfg(not(target_os = "none"))]
 fn main() {
