@@ -1,4 +1,4 @@
-//! The board: memory and the player's `Board`.
+//! The board: harts, memory and the player's `Board`.
 
 use core::cell::UnsafeCell;
 use core::convert::Infallible;
@@ -13,11 +13,19 @@ use scanout_assets::text::{Value, fill};
 use scanout_display::init::Setup;
 use scanout_display::spi::{SpiError, SpiLink};
 
-use crate::chip::{self, Clock, Console, RESET};
+use crate::chip::{self, CONSOLE, Clock, RESET};
 use crate::spi::{CardSpi, DataCommand, DisplayBus};
 
+rv64::start! {
+    harts: 0, 1;
+    main: run;
+    second: serve;
+    say: say;
+    stop: stop;
+}
+
 /// The second hart.
-pub static HARTS: Mailbox = Mailbox::new();
+static HARTS: Mailbox = Mailbox::new();
 
 /// The chip has 6 MB: 4,000 positions, 8,000 triangles, the largest texture (1024 x 1024 texels); bands of 16 lines.
 type Memory = Storage<4000, 8000, 1_048_576, 5120>;
@@ -47,15 +55,15 @@ impl Board for MaixDock {
 
     fn start_display(&mut self) -> Result<(), SpiError<Infallible, Infallible>> {
         RESET.set(false);
-        Clock.delay_ms(10);
+        Clock {}.delay_ms(10);
         RESET.set(true);
-        Clock.delay_ms(120);
+        Clock {}.delay_ms(120);
         let orientation = Orientation::new().rotate(Rotation::Deg90);
-        Setup { orientation, ..Setup::default() }.start(&mut self.display, &mut Clock)
+        Setup { orientation, ..Setup::default() }.start(&mut self.display, &mut Clock {})
     }
 
     fn say(&mut self, text: &[u8]) {
-        Console.write(text);
+        CONSOLE.write(text);
     }
 
     fn frame_sent(&mut self, number: u32) {
@@ -70,16 +78,16 @@ impl Board for MaixDock {
     }
 
     fn again(&mut self, _fault: &Fault) -> bool {
-        Clock.delay_ms(1000);
+        Clock {}.delay_ms(1000);
         true
     }
 }
 
 /// Everything, on the first hart.
-pub fn run() -> ! {
+fn run() -> ! {
     chip::start();
     let mut board = MaixDock {
-        card: SpiCard::new(CardSpi::new(), Clock),
+        card: SpiCard::new(CardSpi::new(), Clock {}),
         display: SpiLink::new(DisplayBus::new(), DataCommand),
     };
     board.say(b"scanout on Maix Dock\n");
@@ -88,6 +96,18 @@ pub fn run() -> ! {
     // Faults are tried again for ever, so this ends when the frames that were asked for are shown.
     let _ = play(&mut board, &mut memory.lend());
     board.say(b"done\n");
+    stop()
+}
+
+fn serve() -> ! {
+    HARTS.serve()
+}
+
+fn say(text: &[u8]) {
+    CONSOLE.write(text);
+}
+
+fn stop() -> ! {
     loop {
         core::hint::spin_loop();
     }

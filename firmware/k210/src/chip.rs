@@ -1,29 +1,9 @@
 //! What the chip needs before anything else: clocks, pins, time, the serial port.
 
 use embedded_hal::delay::DelayNs;
-
-/// A register of 32 bits.
-#[derive(Clone, Copy)]
-pub struct Register(pub usize);
-
-impl Register {
-    /// Reads it.
-    pub fn read(self) -> u32 {
-        // SAFETY: the addresses in this crate are registers of the K210, see `main`.
-        unsafe { (self.0 as *const u32).read_volatile() }
-    }
-
-    /// Writes it.
-    pub fn write(self, value: u32) {
-        // SAFETY: as above.
-        unsafe { (self.0 as *mut u32).write_volatile(value) }
-    }
-
-    /// Clears some bits, then sets some.
-    pub fn change(self, clear: u32, set: u32) {
-        self.write(self.read() & !clear | set);
-    }
-}
+use rv64::clint;
+use rv64::register::Register;
+use rv64::uart::Uart;
 
 const SYSCTL: usize = 0x5044_0000;
 const PLL0: Register = Register(SYSCTL + 0x08);
@@ -37,14 +17,13 @@ const MISC: Register = Register(SYSCTL + 0x54);
 const POWER_SEL: Register = Register(SYSCTL + 0x6c);
 const FPIOA: usize = 0x502b_0000;
 const GPIOHS: usize = 0x3800_1000;
-const UARTHS: usize = 0x3800_0000;
-/// CLINT: mtime, one step in 50 of the processor's clock.
-const MTIME: usize = 0x0200_bff8;
+/// UARTHS: messages.
+pub const CONSOLE: Uart = Uart(0x3800_0000);
 
 /// The processor's clock and that of the SPIs before their dividers, Hz: half of PLL0.
 pub const CLOCK: u32 = 390_000_000;
-/// Steps of mtime a microsecond, times ten.
-const TENTHS: u64 = CLOCK as u64 / 50 / 100_000;
+/// Time: mtime takes a step in 50 of the processor's clock.
+pub type Clock = clint::Clock<{ CLOCK as u64 / 50 / 100_000 }>;
 
 /// FPIOA: an output with the strongest drive that is not slow, an input through a Schmitt trigger.
 const OUTPUT: u32 = 0xf << 8 | 1 << 12;
@@ -96,7 +75,7 @@ pub fn start() {
     let set = 59 << 4 | 1 << 10 | 59 << 14 | 1 << 21;
     PLL0.write(set);
     PLL0.write(set | 1 << 20);
-    Clock.delay_us(10);
+    Clock {}.delay_us(10);
     PLL0.write(set);
     while PLL_LOCK.read() & 3 != 3 {
         PLL_LOCK.change(0, 1 << 2);
@@ -123,40 +102,5 @@ pub fn start() {
     connect(26, SPI1_D1, INPUT | 1 << 16);
     CARD_SELECT.output(29);
 
-    Register(UARTHS + 0x18).write(CLOCK / 115_200 - 1);
-    Register(UARTHS + 0x08).write(1);
-}
-
-/// Time.
-#[derive(Clone, Copy)]
-pub struct Clock;
-
-impl Clock {
-    fn now() -> u64 {
-        // SAFETY: as for `Register`; 64 bits at once on this machine.
-        unsafe { (MTIME as *const u64).read_volatile() }
-    }
-}
-
-impl DelayNs for Clock {
-    fn delay_ns(&mut self, ns: u32) {
-        let end = Self::now() + u64::from(ns) * TENTHS / 10_000 + 1;
-        while Self::now() < end {
-            core::hint::spin_loop();
-        }
-    }
-}
-
-/// The serial port.
-pub struct Console;
-
-impl Console {
-    /// Sends text.
-    pub fn write(&mut self, text: &[u8]) {
-        for &byte in text {
-            // The transmitter's FIFO has no room.
-            while Register(UARTHS).read() >> 31 != 0 {}
-            Register(UARTHS).write(byte.into());
-        }
-    }
+    CONSOLE.start(CLOCK / 115_200);
 }

@@ -20,8 +20,6 @@ mod board;
 mod chip;
 #[cfg(target_os = "none")]
 mod spi;
-#[cfg(target_os = "none")]
-mod start;
 
 #[cfg(not(target_os = "none"))]
 fn main() {

@@ -6,8 +6,9 @@ use core::convert::Infallible;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
 use player::spi_card::Clocked;
+use rv64::register::Register;
 
-use crate::chip::{CARD_SELECT, CLOCK, DATA_COMMAND, Register};
+use crate::chip::{CARD_SELECT, CLOCK, DATA_COMMAND};
 
 /// An SSI at its address.
 #[derive(Clone, Copy)]

@@ -1,4 +1,4 @@
-//! The board: registers, time, memory, and the player's `Board`.
+//! The board: harts, time, memory, and the player's `Board`.
 
 use core::cell::UnsafeCell;
 
@@ -8,6 +8,9 @@ use player::fault::Fault;
 use player::pair::Mailbox;
 use player::play::{Board, Storage, play};
 use player::spi_card::{SpiCard, Traffic};
+use rv64::clint;
+use rv64::start::stack_left;
+use rv64::uart::Uart;
 use scanout_assets::text::{Value, fill};
 use scanout_display::init::Setup;
 use scanout_display::spi::{SpiError, SpiLink};
@@ -15,50 +18,23 @@ use scanout_display::spi::{SpiError, SpiLink};
 use crate::display::{DataCommand, Wire};
 use crate::sd::Qspi2;
 use crate::semihosting::{Stuck, exit};
-use crate::start::stack_left;
-use crate::uart::Console;
 
-/// A register of 32 bits.
-#[derive(Clone, Copy)]
-pub struct Register(pub usize);
+/// Time: mtime has 1 MHz.
+pub type Clock = clint::Clock<10>;
 
-impl Register {
-    /// Reads it.
-    pub fn read(self) -> u32 {
-        // SAFETY: the addresses in this crate are registers of the machine, see `main`.
-        unsafe { (self.0 as *const u32).read_volatile() }
-    }
+/// UART0.
+const CONSOLE: Uart = Uart(0x1001_0000);
 
-    /// Writes it.
-    pub fn write(self, value: u32) {
-        // SAFETY: as above.
-        unsafe { (self.0 as *mut u32).write_volatile(value) }
-    }
-}
-
-/// Time.
-#[derive(Clone, Copy)]
-pub struct Clock;
-
-impl Clock {
-    /// Microseconds since reset: the CLINT's mtime.
-    pub fn now() -> u64 {
-        // SAFETY: as for `Register`; 64 bits at once on this machine.
-        unsafe { (0x0200_bff8 as *const u64).read_volatile() }
-    }
-}
-
-impl DelayNs for Clock {
-    fn delay_ns(&mut self, ns: u32) {
-        let end = Self::now() + u64::from(ns).div_ceil(1000);
-        while Self::now() < end {
-            core::hint::spin_loop();
-        }
-    }
+rv64::start! {
+    harts: 1, 2;
+    main: run;
+    second: serve;
+    say: say;
+    stop: stop;
 }
 
 /// The second hart.
-pub static HARTS: Mailbox = Mailbox::new();
+static HARTS: Mailbox = Mailbox::new();
 
 /// Memory for system B's largest models: 500 positions, 500 quads, 250 x 250 texels; bands of 6 lines.
 type Memory = Storage<500, 1000, 62_500, 1920>;
@@ -75,7 +51,6 @@ type Display = SpiLink<Wire, DataCommand>;
 struct SifiveU {
     card: SpiCard<Qspi2, Clock>,
     display: Display,
-    console: Console,
     traffic: Traffic,
     faults: u32,
 }
@@ -91,11 +66,11 @@ impl Board for SifiveU {
 
     fn start_display(&mut self) -> Result<(), SpiError<Stuck, core::convert::Infallible>> {
         let orientation = Orientation::new().rotate(Rotation::Deg90);
-        Setup { orientation, ..Setup::default() }.start(&mut self.display, &mut Clock)
+        Setup { orientation, ..Setup::default() }.start(&mut self.display, &mut Clock {})
     }
 
     fn say(&mut self, text: &[u8]) {
-        self.console.write(text);
+        CONSOLE.write(text);
     }
 
     fn frame_sent(&mut self, number: u32) {
@@ -113,7 +88,7 @@ impl Board for SifiveU {
     }
 
     fn again(&mut self, _fault: &Fault) -> bool {
-        Clock.delay_ms(1000);
+        Clock {}.delay_ms(1000);
         self.faults += 1;
         // A machine in a box would try for ever; one in a test must end.
         self.faults < 5
@@ -121,11 +96,12 @@ impl Board for SifiveU {
 }
 
 /// Everything, on the first hart.
-pub fn run() -> ! {
+fn run() -> ! {
+    // 115,200 baud from 500 MHz; an emulator doesn't mind.
+    CONSOLE.start(4341);
     let mut board = SifiveU {
-        card: SpiCard::new(Qspi2::new(), Clock),
+        card: SpiCard::new(Qspi2::new(), Clock {}),
         display: SpiLink::new(Wire, DataCommand::new()),
-        console: Console::start(),
         traffic: Traffic::default(),
         faults: 0,
     };
@@ -142,4 +118,16 @@ pub fn run() -> ! {
     });
     board.say(if result.is_ok() { b"done\n" } else { b"given up\n" });
     exit(result.is_err().into())
+}
+
+fn serve() -> ! {
+    HARTS.serve()
+}
+
+fn say(text: &[u8]) {
+    CONSOLE.write(text);
+}
+
+fn stop() -> ! {
+    exit(1)
 }

@@ -8,8 +8,8 @@ use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 use player::wire;
 
-use crate::board::Register;
 use crate::semihosting::{self, Stuck};
+use rv64::register::Register;
 
 /// The GPIO's output values.
 const OUTPUT: Register = Register(0x1006_000c);

@@ -20,10 +20,6 @@ mod display;
 mod sd;
 #[cfg(target_os = "none")]
 mod semihosting;
-#[cfg(target_os = "none")]
-mod start;
-#[cfg(target_os = "none")]
-mod uart;
 
 #[cfg(not(target_os = "none"))]
 fn main() {

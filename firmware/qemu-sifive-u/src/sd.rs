@@ -5,7 +5,7 @@ use core::convert::Infallible;
 use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
 use player::spi_card::Clocked;
 
-use crate::board::Register;
+use rv64::register::Register;
 
 const SCKDIV: Register = Register(0x1005_0000);
 const SCKMODE: Register = Register(0x1005_0004);

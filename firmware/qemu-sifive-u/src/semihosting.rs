@@ -88,7 +88,7 @@ pub fn write(bytes: &[u8]) -> Result<(), Stuck> {
 /// Ends the emulator.
 pub fn exit(code: usize) -> ! {
     // What the UART still has in its FIFO goes out first.
-    Clock.delay_ms(5);
+    Clock {}.delay_ms(5);
     // SAFETY: the operation reads two words.
     unsafe { call(SYS_EXIT_EXTENDED, [APPLICATION_EXIT, code]) };
     loop {
