@@ -76,21 +76,21 @@ impl ByRows {
     }
 
     #[inline(always)]
-    fn one(&self, x: i32, y: i32) -> Block<16> {
+    fn one(&self, x: i32, y: i32) -> Block<21> {
         let [s, t] = &self.setup.st;
         Block::one(&self.setup, self.size, self.q.at(x, y), [s.at(x, y), t.at(x, y)])
     }
 }
 
 impl Way for ByRows {
-    type Block = Block<16>;
+    type Block = Block<21>;
 
     #[inline(always)]
     fn longest(&self) -> i32 {
         self.along.length() as i32
     }
     #[inline(always)]
-    fn block(&self, x: i32, y: i32, count: u32) -> Block<16> {
+    fn block(&self, x: i32, y: i32, count: u32) -> Block<21> {
         // A block costs as much as two pixels of the definition.
         if count < 2 {
             return self.one(x, y);

@@ -14,7 +14,7 @@
 //!
 //! | value | format |
 //! |---|---|
-//! | coordinate, slope, margin | 16 fraction bits of a texel |
+//! | coordinate, slope, margin | 21 fraction bits of a texel, modulo 2048 texels |
 //! | p | 32 fraction bits, below 1/32 |
 //!
 //! What it will not do: blocks that leave the texture, 16 texels a pixel and more, gradients beyond 32 bits; there every pixel is
@@ -24,7 +24,10 @@ use super::perspective::{Perspective, column_and_row, integer_q, reciprocal};
 use crate::interpolate::Plane;
 
 /// Fraction bits of a coordinate.
-const FRACTION: u32 = 16;
+const FRACTION: u32 = 21;
+
+/// How many more these are than a margin's for a slope of 1.
+const MORE: u32 = FRACTION - 16;
 
 /// The longest block in pixels.
 const LONGEST: u32 = 32;
@@ -33,7 +36,10 @@ const LONGEST: u32 = 32;
 const LEAST_Q: u32 = 1 << 20;
 
 /// The largest side of a texture that the margin holds for.
-const LARGEST: u32 = 1 << 12;
+const LARGEST: u32 = 1 << 10;
+
+// A block that leaves the texture is seen by its ends: it is at most 512 texels long.
+const _: () = assert!(LARGEST + 512 < 1 << (32 - FRACTION));
 
 /// A triangle's way along its rows.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +52,8 @@ pub struct Along {
     length: u32,
     /// Bound of the remainder for a slope of 1, 16 fraction bits.
     bend_error: u32,
-    /// Bound of what is rounded.
+    /// Bound of what is rounded, in a coordinate's format: what the definition rounds, four units a pixel for the slope, two a pixel
+    /// squared for the bend.
     rounded: [u32; 2],
 }
 
@@ -130,7 +137,7 @@ impl Along {
         // And what a slope's own error, 2^-20 of it, comes to.
         let bend_error = ((square as u64 * cube as u64 * factor as u64) >> 21) as u32 + 4;
         let n = length;
-        let of = |size: u32| size / 5 + 2 * n + n * n / 2 + 4;
+        let of = |size: u32| ((size / 5 + 4) << MORE) + 4 * n + 2 * n * n;
         let rounded = [of(size[0]), of(size[1])];
         Along { gradients, size, shift, length, bend_error, rounded }
     }
@@ -153,8 +160,8 @@ impl Along {
         let over = (p >> 16) * self.length as i32;
         let (mut block, mut margin) = (Block::NONE, 0);
         for (axis, &over_w) in st.iter().enumerate() {
-            let (shift, size) = (self.shift[axis] - 4, self.size[axis] << 16);
-            let at = (over_w as u64 * r as u64 + (1 << (shift + 3))) >> shift;
+            let (shift, size) = (self.shift[axis] - (FRACTION - 12), self.size[axis] << FRACTION);
+            let at = (over_w as u64 * r as u64 + (1 << (self.shift[axis] - 1))) >> shift;
             // Rounding may leave a value just below 0, which wraps to the top.
             if over_w > (1 << 31) + (1 << 13) || at >= size as u64 {
                 return Block::NONE;
@@ -162,14 +169,15 @@ impl Along {
             let at = at as u32;
             let slope = (self.gradients[axis + 1] as i64 * r as i64) >> shift;
             let slope = slope - ((at as i32 as i64 * p as i64) >> 32);
-            if slope.unsigned_abs() >= 1 << 20 {
+            if slope.unsigned_abs() >= 1 << (20 + MORE) {
                 return Block::NONE;
             }
             let slope = slope as i32;
-            // 24 fraction bits, then 16.
-            let bent = ((slope as i64 * p as i64) >> 24) as i32;
-            let bend = -((bent - (((bent >> 6) * over) >> 10) + (1 << 7)) >> 8);
-            let own = self.rounded[axis] + ((slope.unsigned_abs() * self.bend_error) >> 16);
+            // 24 fraction bits, then a coordinate's.
+            let bent = ((slope as i64 * p as i64) >> (24 + MORE)) as i32;
+            let bend = -((bent - (((bent >> 6) * over) >> 10) + (1 << (7 - MORE))) >> (8 - MORE));
+            let bent_away = ((slope.unsigned_abs() >> MORE) * self.bend_error) >> (16 - MORE);
+            let own = self.rounded[axis] + bent_away;
             let last = count - 1;
             let end = at
                 .wrapping_add((slope as u32).wrapping_mul(last))
@@ -184,12 +192,12 @@ impl Along {
             block.bend[axis] = (2 * bend) as u32;
             margin = margin.max(own);
         }
-        if margin >= 1 << 14 {
+        if margin >= 1 << (14 + MORE) {
             return Block::NONE;
         }
         let [s, t] = block.at;
         let at = [s.wrapping_sub(margin), t.wrapping_sub(margin)];
-        Block { at, limit: (1 << 16) - 2 * margin, ..block }
+        Block { at, limit: (1 << FRACTION) - 2 * margin, ..block }
     }
 }
 
