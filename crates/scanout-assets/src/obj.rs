@@ -220,7 +220,8 @@ impl Parser {
             return Err(error);
         }
         for &byte in chunk {
-            if let Err(error) = self.byte(byte, sink) {
+            if let Err(kind) = self.byte(byte, sink) {
+                let error = self.fail(kind);
                 self.failed = Some(error);
                 return Err(error);
             }
@@ -236,7 +237,7 @@ impl Parser {
         self.feed(b"\n", sink)
     }
 
-    fn byte(&mut self, byte: u8, sink: &mut impl FnMut(Event<'_>)) -> Result<(), Error> {
+    fn byte(&mut self, byte: u8, sink: &mut impl FnMut(Event<'_>)) -> Result<(), ErrorKind> {
         let after_return = core::mem::take(&mut self.carriage_return);
         match byte {
             b'\n' if after_return => Ok(()),
@@ -249,7 +250,7 @@ impl Parser {
                 };
                 result?;
                 self.line =
-                    self.line.checked_add(1).ok_or_else(|| self.fail(ErrorKind::TooMany))?;
+                    self.line.checked_add(1).ok_or(ErrorKind::TooMany)?;
                 Ok(())
             }
             _ => {
@@ -268,7 +269,7 @@ impl Parser {
         }
     }
 
-    fn character(&mut self, byte: u8, sink: &mut impl FnMut(Event<'_>)) -> Result<(), Error> {
+    fn character(&mut self, byte: u8, sink: &mut impl FnMut(Event<'_>)) -> Result<(), ErrorKind> {
         if self.mode == Mode::Skip {
             return Ok(());
         }
@@ -284,14 +285,14 @@ impl Parser {
                 self.mode = Mode::Skip;
                 return Ok(());
             }
-            return Err(self.fail(ErrorKind::WordTooLong));
+            return Err(ErrorKind::WordTooLong);
         }
         self.word[self.length] = byte;
         self.length += 1;
         Ok(())
     }
 
-    fn space(&mut self, sink: &mut impl FnMut(Event<'_>)) -> Result<(), Error> {
+    fn space(&mut self, sink: &mut impl FnMut(Event<'_>)) -> Result<(), ErrorKind> {
         if self.length == 0 {
             return Ok(());
         }
@@ -309,7 +310,7 @@ impl Parser {
         Ok(())
     }
 
-    fn end_line(&mut self, sink: &mut impl FnMut(Event<'_>)) -> Result<(), Error> {
+    fn end_line(&mut self, sink: &mut impl FnMut(Event<'_>)) -> Result<(), ErrorKind> {
         if !matches!(self.mode, Mode::Name(_)) {
             self.space(sink)?;
         }
@@ -334,12 +335,12 @@ impl Parser {
     }
 
     /// Ends a line of numbers or corners; its last word is complete.
-    fn end_elements(&mut self, sink: &mut impl FnMut(Event<'_>)) -> Result<(), Error> {
+    fn end_elements(&mut self, sink: &mut impl FnMut(Event<'_>)) -> Result<(), ErrorKind> {
         match self.mode {
             Mode::Element(_) => sink(Event::End),
             Mode::Numbers(which) => {
                 if self.count < [3, 1, 3][which] {
-                    return Err(self.fail(ErrorKind::TooFewNumbers));
+                    return Err(ErrorKind::TooFewNumbers);
                 }
                 let n = &self.numbers;
                 let xyz = [n[0], n[1], n[2]];
@@ -356,7 +357,7 @@ impl Parser {
                 }
                 self.totals[which] = self.totals[which]
                     .checked_add(1)
-                    .ok_or_else(|| self.fail(ErrorKind::TooMany))?;
+                    .ok_or(ErrorKind::TooMany)?;
             }
             _ => {}
         }
@@ -388,9 +389,9 @@ impl Parser {
         self.count = 0;
     }
 
-    fn number(&mut self) -> Result<(), Error> {
+    fn number(&mut self) -> Result<(), ErrorKind> {
         let number = Number::parse(&self.word[..self.length])
-            .ok_or_else(|| self.fail(ErrorKind::NotANumber))?;
+            .ok_or(ErrorKind::NotANumber)?;
         // Extra numbers are checked and dropped, as every other reader does.
         if let Some(slot) = self.numbers.get_mut(self.count) {
             *slot = number;
@@ -400,7 +401,7 @@ impl Parser {
         Ok(())
     }
 
-    fn corner(&self, element: Element) -> Result<Corner, Error> {
+    fn corner(&self, element: Element) -> Result<Corner, ErrorKind> {
         let mut parts = self.word[..self.length].split(|&b| b == b'/');
         let mut next = |which: usize| match parts.next() {
             None | Some([]) => Ok(None),
@@ -412,19 +413,19 @@ impl Parser {
                 Element::Points => Corner { position, uv: None, normal: None },
                 _ => Corner { position, uv, normal },
             }),
-            _ => Err(self.fail(ErrorKind::BadCorner)),
+            _ => Err(ErrorKind::BadCorner),
         }
     }
 
     /// `text` counts from 1, or backwards from the `total` elements so far.
-    fn index(&self, text: &[u8], total: u32) -> Result<u32, Error> {
+    fn index(&self, text: &[u8], total: u32) -> Result<u32, ErrorKind> {
         let (negative, digits) = match text {
             [b'-', rest @ ..] => (true, rest),
             [b'+', rest @ ..] => (false, rest),
             _ => (false, text),
         };
         if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
-            return Err(self.fail(ErrorKind::BadCorner));
+            return Err(ErrorKind::BadCorner);
         }
         let value = digits.iter().try_fold(0u32, |value, digit| {
             value.checked_mul(10)?.checked_add(u32::from(digit - b'0'))
@@ -440,7 +441,7 @@ impl Parser {
             Some(value) => value.checked_sub(1),
             None => None,
         };
-        index.ok_or_else(|| self.fail(ErrorKind::BadIndex))
+        index.ok_or(ErrorKind::BadIndex)
     }
 
     fn fail(&self, kind: ErrorKind) -> Error {

@@ -279,28 +279,29 @@ impl State<'_, '_> {
     }
 
     /// Whether a quad is cut from its second corner to its fourth: when only that lies inside, or when it is shorter.
+    #[inline(never)]
     fn second_diagonal(&self) -> bool {
-        let p = self.corners.map(|c| self.memory.millionths[c.position as usize].map(i64::from));
-        let minus = |a: usize, b: usize| [0, 1, 2].map(|i| p[a][i] - p[b][i]);
-        // 30 bits a difference, so that squares fit.
-        let size = (1..4).flat_map(|i| minus(i, 0)).fold(0, |bits, v| bits | v.unsigned_abs());
-        let drop = (64 - size.leading_zeros()).saturating_sub(29);
-        let minus = |a: usize, b: usize| minus(a, b).map(|v| v >> drop);
+        let p = self.corners.map(|c| self.memory.millionths[c.position as usize]);
+        let mut size = 0;
+        for corner in 1..4 {
+            size = minus(&p, corner, 0, 0).iter().fold(size, |bits, v| bits | v.unsigned_abs());
+        }
+        let bits = 64 - size.leading_zeros();
         // Twice Newell's normal of a quad is the product of its diagonals. 20 bits a difference here.
-        let fine = drop.max((64 - size.leading_zeros()).saturating_sub(19)) - drop;
-        let wide = |a, b| minus(a, b).map(|v| i128::from(v >> fine));
-        let cross = |[a, b, c]: [i128; 3], [d, e, f]: [i128; 3]| {
-            [b * f - c * e, c * d - a * f, a * e - b * d]
-        };
-        let n = cross(wide(2, 0), wide(3, 1));
-        let turns = |a, b, c| {
-            let normal = cross(wide(b, a), wide(c, a));
-            (0..3).map(|i| normal[i] * n[i]).sum::<i128>() > 0
-        };
-        let first = turns(0, 1, 2) && turns(0, 2, 3);
-        let second = turns(0, 1, 3) && turns(1, 2, 3);
-        let length = |a, b| minus(a, b).iter().map(|v| i128::from(v * v)).sum::<i128>();
-        match (first, second) {
+        let fine = bits.saturating_sub(19);
+        let n = cross(&minus(&p, 2, 0, fine), &minus(&p, 3, 1, fine));
+        let mut inside = [false; 4];
+        for (inside, [a, b, c]) in
+            inside.iter_mut().zip([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])
+        {
+            let normal = cross(&minus(&p, b, a, fine), &minus(&p, c, a, fine));
+            let along = normal.iter().zip(&n).map(|(a, b)| i128::from(*a) * i128::from(*b));
+            *inside = along.sum::<i128>() > 0;
+        }
+        // 30 bits a difference, so that squares fit.
+        let coarse = bits.saturating_sub(29);
+        let length = |a, b| i128::from(minus(&p, a, b, coarse).iter().map(|v| v * v).sum::<i64>());
+        match (inside[0] && inside[1], inside[2] && inside[3]) {
             (true, false) => false,
             (false, true) => true,
             _ => 1000 * length(1, 3) < 998 * length(0, 2),
@@ -352,6 +353,18 @@ impl State<'_, '_> {
         };
         Ok(Built { totals, placement, flat: self.flat, textured: self.textured })
     }
+}
+
+/// From corner `b` to corner `a` in steps of 2^`drop` millionths, downwards.
+#[inline(never)]
+fn minus(corners: &[[i32; 3]; 4], a: usize, b: usize, drop: u32) -> [i64; 3] {
+    core::array::from_fn(|i| (i64::from(corners[a][i]) - i64::from(corners[b][i])) >> drop)
+}
+
+/// The cross product of differences of 20 bits.
+#[inline(never)]
+fn cross(&[a, b, c]: &[i64; 3], &[d, e, f]: &[i64; 3]) -> [i64; 3] {
+    [b * f - c * e, c * d - a * f, a * e - b * d]
 }
 
 /// `n 2^up / d`, nearest, halves upwards: a division, then a bit a step. `n` and `d` below 2^61, the result below 2^63.
