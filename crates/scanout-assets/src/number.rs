@@ -17,7 +17,7 @@ pub struct Number {
 /// Digits kept; 10^18 < 2^63.
 const DIGITS: u32 = 18;
 /// Exponents are clamped to this, far outside f64's range, so that they never overflow.
-const EXPONENT_LIMIT: i64 = 100_000;
+const EXPONENT_LIMIT: u64 = 100_000;
 
 impl Number {
     /// Reads `[+-] digits [. digits] [e [+-] digits]`, the whole of `text`; `None` when it is anything else.
@@ -52,19 +52,11 @@ impl Number {
         }
         if let [_, tail @ ..] = rest {
             let (down, digits) = sign(tail);
-            if digits.is_empty() {
-                return None;
-            }
-            let mut power = 0i64;
-            for byte in digits {
-                if !byte.is_ascii_digit() {
-                    return None;
-                }
-                power = (power * 10 + i64::from(byte - b'0')).min(EXPONENT_LIMIT);
-            }
+            let power = whole(digits)?.min(EXPONENT_LIMIT) as i64;
             exponent += if down { -power } else { power };
         }
-        let exponent = exponent.clamp(-EXPONENT_LIMIT, EXPONENT_LIMIT) as i32;
+        let limit = EXPONENT_LIMIT as i64;
+        let exponent = exponent.clamp(-limit, limit) as i32;
         let mantissa = if negative { -mantissa } else { mantissa };
         Some(Self { mantissa, exponent: if mantissa == 0 { 0 } else { exponent } })
     }
@@ -122,7 +114,19 @@ impl Number {
     }
 }
 
-fn sign(text: &[u8]) -> (bool, &[u8]) {
+/// A number of digits alone, saturated; `None` when there is none or something else.
+pub fn whole(digits: &[u8]) -> Option<u64> {
+    if digits.is_empty() {
+        return None;
+    }
+    digits.iter().try_fold(0u64, |value, digit| {
+        let digit = digit.is_ascii_digit().then(|| u64::from(digit - b'0'))?;
+        Some(value.saturating_mul(10).saturating_add(digit))
+    })
+}
+
+/// Whether it begins with a minus, and what follows the sign, if there is one.
+pub(crate) fn sign(text: &[u8]) -> (bool, &[u8]) {
     match text {
         [b'-', rest @ ..] => (true, rest),
         [b'+', rest @ ..] => (false, rest),
@@ -156,6 +160,19 @@ mod tests {
 
     fn q(text: &str) -> i32 {
         Number::parse(text.as_bytes()).unwrap().to_q16()
+    }
+
+    #[test]
+    fn whole_numbers_are_those_of_the_standard_library() {
+        for text in [
+            "0", "007", "4294967296", "18446744073709551615", "", "-1", "1.", "1e0", " 1", "1 ", "0x1",
+        ] {
+            assert_eq!(whole(text.as_bytes()), text.parse().ok(), "{text}");
+        }
+        for text in ["18446744073709551616", "18446744073709551620", "99999999999999999999999"] {
+            assert_eq!(whole(text.as_bytes()), Some(u64::MAX), "{text}");
+        }
+        assert_eq!(whole(b"99999999999999999999999x"), None);
     }
 
     /// The definition in 128 bits.

@@ -22,7 +22,7 @@
 //! # Ok::<(), scanout_assets::obj::Error>(())
 //! ```
 
-use crate::number::Number;
+use crate::number::{Number, sign, whole};
 use crate::text::{self, Sink, Value};
 use core::fmt;
 
@@ -419,27 +419,12 @@ impl Parser {
 
     /// `text` counts from 1, or backwards from the `total` elements so far.
     fn index(&self, text: &[u8], total: u32) -> Result<u32, ErrorKind> {
-        let (negative, digits) = match text {
-            [b'-', rest @ ..] => (true, rest),
-            [b'+', rest @ ..] => (false, rest),
-            _ => (false, text),
-        };
-        if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
-            return Err(ErrorKind::BadCorner);
-        }
-        let value = digits.iter().try_fold(0u32, |value, digit| {
-            value.checked_mul(10)?.checked_add(u32::from(digit - b'0'))
-        });
-        let index = match value {
-            Some(value) if negative => {
-                if value == 0 {
-                    None
-                } else {
-                    total.checked_sub(value)
-                }
-            }
-            Some(value) => value.checked_sub(1),
-            None => None,
+        let (negative, digits) = sign(text);
+        let value = whole(digits).ok_or(ErrorKind::BadCorner)?;
+        let index = match u32::try_from(value) {
+            Ok(value) if value > 0 && negative => total.checked_sub(value),
+            Ok(value) if !negative => value.checked_sub(1),
+            _ => None,
         };
         index.ok_or(ErrorKind::BadIndex)
     }

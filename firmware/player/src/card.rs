@@ -16,10 +16,10 @@ use core::ops::ControlFlow;
 use embedded_sdmmc::filesystem::ToShortFileName;
 use embedded_sdmmc::{
     Block, BlockCount, BlockDevice, BlockIdx, ClusterId, Directory, Error, LfnBuffer, Mode,
-    ShortFileName, TimeSource, Timestamp, VolumeIdx, VolumeManager,
+    RawVolume, ShortFileName, TimeSource, Timestamp, VolumeIdx, VolumeManager,
 };
 
-use crate::fault::{CardFault, Fault, name};
+use crate::fault::{CardFault, Failed, Fault, Faults, FileFault};
 
 /// How often a sector is asked for before its failure is told.
 pub const TRIES: u32 = 3;
@@ -44,11 +44,13 @@ pub trait Card: BlockDevice {
 }
 
 /// Takes the bytes of a file; breaks off when it has enough.
-pub type Sink<'s> = &'s mut dyn FnMut(&[u8]) -> Result<ControlFlow<()>, Fault>;
+pub type Sink<'s> = &'s mut dyn FnMut(&[u8]) -> Result<ControlFlow<()>, Failed>;
 
 /// What reading cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
+    /// Bytes of files handed on.
+    pub bytes: u32,
     /// Sectors read, repeated ones counted again.
     pub sectors: u32,
     /// Sectors that were asked for again.
@@ -61,7 +63,7 @@ struct Careful<'c, C> {
     /// Sectors that a bare volume has; `None` for a partitioned card.
     bare: Option<u32>,
     cost: &'c Cell<Cost>,
-    failed: &'c Cell<Option<Fault>>,
+    faults: &'c Faults,
     /// First sector of the volume's data; before it lie the tables of clusters.
     data: u32,
     /// The last sector of the tables that was read: embedded-sdmmc looks a cluster up for each sector of small clusters and keeps one
@@ -99,7 +101,7 @@ impl<C: Card> Careful<'_, C> {
                     let fault = C::fault(&error);
                     // Only a wrong checksum may come right; a card that is gone costs a tenth of a second a try.
                     if fault != CardFault::Checksum || tries == TRIES {
-                        self.failed.set(Some(Fault::Card { fault, sector, tries }));
+                        self.faults.leave(Fault::Card { fault, sector, tries });
                         return Err(error);
                     }
                 }
@@ -142,6 +144,7 @@ fn partition_table(sectors: u32) -> Block {
     block
 }
 
+#[inline(never)]
 fn two(block: &Block, at: usize) -> u32 {
     u32::from(block[at]) | u32::from(block[at + 1]) << 8
 }
@@ -152,7 +155,7 @@ fn four(block: &Block, at: usize) -> u32 {
 
 /// The number of clusters of a volume, from its boot sector, which must make sense: embedded-sdmmc computes with it.
 #[inline(never)]
-fn clusters(block: &Block) -> Result<u32, Fault> {
+fn clusters(block: &Block) -> Option<u32> {
     let either = |short, long| if short != 0 { short } else { long };
     let total = either(two(block, 19), four(block, 32));
     let fat = either(two(block, 22), four(block, 36));
@@ -168,15 +171,10 @@ fn clusters(block: &Block) -> Result<u32, Fault> {
     let data = used.and_then(|used| total.checked_sub(used)).filter(|_| sound);
     // Where FAT32's root folder begins; FAT16's has a place of its own.
     let first = if two(block, 22) == 0 { four(block, 44) } else { 2 };
-    match data.map(|data| data / per_cluster) {
-        // A table of 32 bits names at most 2^28 clusters and must be as long as the clusters are many.
-        Some(clusters @ 1..0x0fff_fff0)
-            if clusters <= fat.saturating_mul(256) && (2..clusters + 2).contains(&first) =>
-        {
-            Ok(clusters)
-        }
-        _ => Err(Fault::Format("its boot sector makes no sense")),
-    }
+    let clusters = data? / per_cluster;
+    // A table of 32 bits names at most 2^28 clusters and must be as long as the clusters are many.
+    let known = (1..0x0fff_fff0).contains(&clusters) && clusters <= fat.saturating_mul(256);
+    (known && (2..clusters + 2).contains(&first)).then_some(clusters)
 }
 
 /// Sectors of a volume before its root folder or its data: reserved ones and tables. Its boot sector makes sense.
@@ -194,9 +192,9 @@ enum Sector0 {
 }
 
 #[inline(never)]
-fn examine(block: &Block) -> Result<Sector0, Fault> {
+fn examine(block: &Block) -> Result<Sector0, &'static str> {
     if two(block, 510) != 0xaa55 {
-        return Err(Fault::Format("sector 0 has no signature"));
+        return Err("sector 0 has no signature");
     }
     // A volume's boot sector begins with a jump and says how large sectors are; code of a partition table's does not.
     if matches!(block[0], 0xeb | 0xe9) && two(block, 11) == Block::LEN_U32 && block[16] != 0 {
@@ -204,14 +202,14 @@ fn examine(block: &Block) -> Result<Sector0, Fault> {
         return Ok(Sector0::Bare(if short != 0 { short } else { four(block, 32) }));
     }
     if &block[3..11] == b"EXFAT   " {
-        return Err(Fault::Format("the volume is exFAT"));
+        return Err("the volume is exFAT");
     }
     let kinds = [0, 1, 2, 3].map(|i| block[450 + 16 * i]);
     match kinds.iter().position(|kind| matches!(kind, 0x0b | 0x0c | 0x04 | 0x06 | 0x0e)) {
         Some(index) => Ok(Sector0::Partition { index, first: four(block, 454 + 16 * index) }),
-        None if kinds.contains(&0xee) => Err(Fault::Format("it has a GPT")),
-        None if kinds.contains(&0x07) => Err(Fault::Format("a partition is exFAT or NTFS")),
-        None => Err(Fault::Format("no partition is FAT")),
+        None if kinds.contains(&0xee) => Err("it has a GPT"),
+        None if kinds.contains(&0x07) => Err("a partition is exFAT or NTFS"),
+        None => Err("no partition is FAT"),
     }
 }
 
@@ -231,105 +229,118 @@ impl TimeSource for NoTime {
     }
 }
 
-type Manager<'c, C> = VolumeManager<Careful<'c, C>, NoTime, 3, 1, 1>;
-type Folder<'f, 'c, C> = Directory<'f, Careful<'c, C>, NoTime, 3, 1, 1>;
+/// Files that may be read: `show.txt`, the model, the texture. They and the volume are never closed, since closing is what writes:
+/// the manager is dropped as it is, and 2 KB of embedded-sdmmc aren't linked.
+const MOST_FILES: usize = 3;
+
+type Manager<'c, C> = VolumeManager<Careful<'c, C>, NoTime, 3, MOST_FILES, 1>;
+type Folder<'f, 'c, C> = Directory<'f, Careful<'c, C>, NoTime, 3, MOST_FILES, 1>;
 
 /// Starts a card, opens its first FAT volume, and lends its files to `with`.
 ///
 /// # Errors
-/// The card's, the volume's, or what `with` says.
+/// The card's, the volume's, or what `with` says, left in `faults`.
 #[inline(never)]
 pub fn with_files<C: Card, R>(
     card: &C,
     cost: &Cell<Cost>,
-    with: impl FnOnce(&Files<'_, '_, C>) -> Result<R, Fault>,
-) -> Result<R, Fault> {
-    let start = |error: C::Error| match C::fault(&error) {
-        CardFault::Gone => Fault::Card { fault: CardFault::Missing, sector: 0, tries: 1 },
-        fault => Fault::Card { fault, sector: 0, tries: 1 },
-    };
-    card.start().map_err(start)?;
-    let failed = Cell::new(None);
+    faults: &Faults,
+    with: impl FnOnce(&Files<'_, '_, C>) -> Result<R, Failed>,
+) -> Result<R, Failed> {
+    card.start().map_err(|error| {
+        let fault = match C::fault(&error) {
+            CardFault::Gone => CardFault::Missing,
+            fault => fault,
+        };
+        faults.leave(Fault::Card { fault, sector: 0, tries: 1 })
+    })?;
     let table = RefCell::new(None);
-    let mut careful = Careful { card, bare: None, cost, failed: &failed, data: 0, table };
+    let mut careful = Careful { card, bare: None, cost, faults, data: 0, table };
     let mut block = Block::new();
-    let told = |error: C::Error| failed.take().unwrap_or_else(|| start(error));
-    careful.fetch(&mut block, 0).map_err(told)?;
-    let (partition, first) = match examine(&block)? {
+    careful.fetch(&mut block, 0).map_err(|_| Failed)?;
+    let format = |what| faults.leave(Fault::Format(what));
+    let (partition, first) = match examine(&block).map_err(format)? {
         Sector0::Bare(sectors) => {
             careful.bare = Some(sectors);
             (0, 0)
         }
         Sector0::Partition { index, first } => {
-            let told = |error: C::Error| failed.take().unwrap_or_else(|| start(error));
-            careful.fetch(&mut block, first).map_err(told)?;
+            careful.fetch(&mut block, first).map_err(|_| Failed)?;
             (index, first)
         }
     };
-    let clusters = clusters(&block)?;
+    let clusters = clusters(&block).ok_or_else(|| format("its boot sector makes no sense"))?;
     careful.data = first.saturating_add(before_data(&block));
     let manager: Manager<'_, C> = VolumeManager::new_with_limits(careful, NoTime, 0);
-    let told = |error| told_as(error, &failed, "");
-    let volume = manager.open_volume(VolumeIdx(partition)).map_err(told)?;
-    let root = volume.open_root_dir().map_err(told)?;
-    with(&Files { root: &root, failed: &failed, clusters })
+    let volume = manager.open_raw_volume(VolumeIdx(partition));
+    let volume = volume.map_err(|error| left(error, faults, ""))?;
+    with(&Files { manager: &manager, volume, faults, cost, clusters })
 }
 
-/// An error of the file system in words.
-fn told_as<E: core::error::Error>(
-    error: Error<E>,
-    failed: &Cell<Option<Fault>>,
-    path: &str,
-) -> Fault {
-    match (failed.take(), error) {
-        (Some(fault), _) => fault,
-        (None, Error::NotFound | Error::FilenameError(_)) => Fault::Missing(name(path)),
-        (None, Error::OpenedDirAsFile | Error::OpenedFileAsDir) => Fault::Kind(name(path)),
-        (None, Error::FormatError(what)) => Fault::Format(what),
-        (None, Error::UnterminatedFatChain) => Fault::Damaged("a chain of clusters has no end"),
-        (None, Error::BadCluster) => Fault::Damaged("a bad cluster"),
-        (None, Error::EndOfFile) => Fault::Damaged("a file is shorter than it says"),
-        (None, _) => Fault::Damaged("it contradicts itself"),
-    }
+/// Leaves an error of the file system in words, unless the card's own fault is there, which was its cause.
+#[inline(never)]
+fn left<E: core::error::Error>(error: Error<E>, faults: &Faults, path: &str) -> Failed {
+    let what = match error {
+        Error::NotFound | Error::FilenameError(_) => {
+            return faults.leave_file(path, FileFault::Missing);
+        }
+        Error::OpenedDirAsFile | Error::OpenedFileAsDir => {
+            return faults.leave_file(path, FileFault::Kind);
+        }
+        Error::FileAlreadyOpen => return faults.leave_file(path, FileFault::Twice),
+        Error::FormatError(what) => return faults.leave(Fault::Format(what)),
+        Error::UnterminatedFatChain => "a chain of clusters has no end",
+        Error::BadCluster => "a bad cluster",
+        Error::EndOfFile => "a file is shorter than it says",
+        _ => "it contradicts itself",
+    };
+    faults.leave(Fault::Damaged(what))
 }
 
 /// The files of a volume.
 pub struct Files<'f, 'c, C: Card> {
-    root: &'f Folder<'f, 'c, C>,
-    failed: &'c Cell<Option<Fault>>,
+    manager: &'f Manager<'c, C>,
+    volume: RawVolume,
+    /// Where faults are left.
+    pub faults: &'c Faults,
+    cost: &'c Cell<Cost>,
     clusters: u32,
 }
 
 impl<C: Card> Files<'_, '_, C> {
-    /// Reads a file from its beginning, a sector at most at a time, until its end or until `sink` breaks off. Gives the
-    /// number of bytes handed on.
+    /// Reads a file from its beginning, a sector at most at a time, until its end or until `sink` breaks off.
     ///
     /// # Errors
-    /// The card's and the file system's; `sink`'s; [`Fault::Empty`] for a file without a byte.
-    pub fn read(&self, path: &str, sink: Sink<'_>) -> Result<u32, Fault> {
-        let told = |error| told_as(error, self.failed, path);
-        let mut parts = path.split('/').filter(|part| !part.is_empty()).peekable();
-        let mut folder = self.root.open_dir(ShortFileName::this_dir()).map_err(told)?;
-        while let Some(part) = parts.next() {
+    /// The card's and the file system's; `sink`'s; [`FileFault::Empty`] for a file without a byte, [`FileFault::Twice`] for one that
+    /// was read before.
+    #[inline(never)]
+    pub fn read(&self, path: &str, sink: Sink<'_>) -> Result<(), Failed> {
+        let left = |error| left(error, self.faults, path);
+        let root = self.manager.open_root_dir(self.volume).map_err(left)?;
+        let mut folder: Folder<'_, '_, C> = root.to_directory(self.manager);
+        let (mut part, mut rest) = first_name(path);
+        let file = loop {
             let short = self.find(&folder, part, path)?;
-            if parts.peek().is_some() {
-                folder.change_dir(short).map_err(told)?;
-                continue;
+            if rest.is_empty() {
+                break folder.open_file_in_dir(short, Mode::ReadOnly).map_err(left)?.to_raw_file();
             }
-            let file = folder.open_file_in_dir(short, Mode::ReadOnly).map_err(told)?;
-            if file.length() == 0 {
-                return Err(Fault::Empty(name(path)));
+            folder.change_dir(short).map_err(left)?;
+            (part, rest) = first_name(rest);
+        };
+        let (mut chunk, mut bytes) = ([0; CHUNK], 0);
+        loop {
+            let length = self.manager.read(file, &mut chunk).map_err(left)?;
+            bytes += length as u32;
+            if bytes == 0 {
+                return Err(self.faults.leave_file(path, FileFault::Empty));
             }
-            let (mut chunk, mut bytes) = ([0; CHUNK], 0);
-            loop {
-                let length = file.read(&mut chunk).map_err(told)?;
-                bytes += length as u32;
-                if length == 0 || sink(&chunk[..length])?.is_break() {
-                    return Ok(bytes);
-                }
+            if length == 0 || sink(&chunk[..length])?.is_break() {
+                let mut cost = self.cost.get();
+                cost.bytes += bytes;
+                self.cost.set(cost);
+                return Ok(());
             }
         }
-        Err(Fault::Missing(name(path)))
     }
 
     /// The short name of an entry, found by its long or its short one.
@@ -339,7 +350,7 @@ impl<C: Card> Files<'_, '_, C> {
         folder: &Folder<'_, '_, C>,
         part: &str,
         path: &str,
-    ) -> Result<ShortFileName, Fault> {
+    ) -> Result<ShortFileName, Failed> {
         let mut storage = [0; LONG_NAME];
         let mut long = LfnBuffer::new(&mut storage);
         let short = part.to_short_filename().ok();
@@ -362,13 +373,29 @@ impl<C: Card> Files<'_, '_, C> {
                     ControlFlow::Continue(())
                 }
             })
-            .map_err(|error| told_as(error, self.failed, path))?;
+            .map_err(|error| left(error, self.faults, path))?;
         if entries > MOST_ENTRIES {
-            return Err(Fault::Damaged("a folder has no end"));
+            return Err(self.faults.leave(Fault::Damaged("a folder has no end")));
         }
         if outside {
-            return Err(Fault::Damaged("a file begins outside the volume"));
+            return Err(self.faults.leave(Fault::Damaged("a file begins outside the volume")));
         }
-        found.ok_or_else(|| Fault::Missing(name(path)))
+        found.ok_or_else(|| self.faults.leave_file(path, FileFault::Missing))
     }
+}
+
+/// The first name of a path, and what follows the slashes after it.
+fn first_name(path: &str) -> (&str, &str) {
+    let path = without_slashes(path);
+    let end = path.bytes().position(|byte| byte == b'/').unwrap_or(path.len());
+    let (name, rest) = path.split_at_checked(end).unwrap_or((path, ""));
+    (name, without_slashes(rest))
+}
+
+#[inline(never)]
+fn without_slashes(mut path: &str) -> &str {
+    while let Some(rest) = path.strip_prefix('/') {
+        path = rest;
+    }
+    path
 }

@@ -1,5 +1,6 @@
 //! Everything that can go wrong, in words for the display and the serial port: what happened, where, what to do.
 
+use core::cell::RefCell;
 use core::fmt;
 
 use heapless::String;
@@ -14,13 +15,9 @@ pub type Name = String<NAME>;
 
 /// As much of a text as a [`Name`] holds.
 pub fn name(text: &str) -> Name {
-    let mut name = Name::new();
-    for letter in text.chars() {
-        if name.push(letter).is_err() {
-            break;
-        }
-    }
-    name
+    // Not in the middle of a letter, of which each has four bytes at most.
+    let cut = (NAME - 3..=NAME).rev().find_map(|end| text.get(..end));
+    Name::try_from(cut.unwrap_or(text)).unwrap_or_default()
 }
 
 /// What of a model there is too much of.
@@ -111,6 +108,45 @@ impl ModelFault {
     }
 }
 
+/// What is wrong with a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFault {
+    /// No such file or folder.
+    Missing,
+    /// A folder where a file was expected, or the other way round.
+    Kind,
+    /// It has no byte.
+    Empty,
+    /// It has been read already.
+    Twice,
+    /// The OBJ file is malformed.
+    Obj(obj::Error),
+    /// The picture is malformed.
+    Ppm(ppm::Error),
+    /// It is well-formed, but can't be shown.
+    Model(ModelFault),
+}
+
+impl FileFault {
+    /// Says it; the file's name stands before.
+    pub fn tell(&self, to: Sink<'_>) {
+        to(match self {
+            FileFault::Missing => b": no such file; copy it onto the card",
+            FileFault::Kind => b": a folder and a file are confused; check the path",
+            FileFault::Empty => b": the file is empty; copy it again",
+            FileFault::Twice => b": named twice; the model and its texture are two files",
+            FileFault::Obj(_) | FileFault::Ppm(_) => b", ",
+            FileFault::Model(_) => b": ",
+        });
+        match self {
+            FileFault::Obj(error) => error.tell(to),
+            FileFault::Ppm(error) => error.tell(to),
+            FileFault::Model(fault) => fault.tell(to),
+            _ => {}
+        }
+    }
+}
+
 /// What a card says when it fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CardFault {
@@ -140,12 +176,8 @@ pub enum Fault {
     Format(&'static str),
     /// The file system contradicts itself.
     Damaged(&'static str),
-    /// No such file or folder.
-    Missing(Name),
-    /// A folder where a file was expected, or the other way round.
-    Kind(Name),
-    /// A file without a byte.
-    Empty(Name),
+    /// A file, by its path.
+    File(Name, FileFault),
     /// `show.txt`, at a line.
     Show {
         /// The line.
@@ -153,12 +185,6 @@ pub enum Fault {
         /// What is wrong.
         what: &'static str,
     },
-    /// The OBJ file is malformed.
-    Obj(Name, obj::Error),
-    /// The picture is malformed.
-    Ppm(Name, ppm::Error),
-    /// The model can't be shown.
-    Model(Name, ModelFault),
     /// The frame can't be prepared.
     Frame,
     /// The display doesn't take what is sent.
@@ -190,29 +216,16 @@ impl Fault {
                 "the card's file system is damaged (%); repair it on a PC",
                 [Value::Text(what), none],
             ),
-            Fault::Missing(ref path) => {
-                ("%: no such file; copy it onto the card", [Value::Text(path), none])
-            }
-            Fault::Kind(ref path) => {
-                ("%: a folder and a file are confused; check the path", [Value::Text(path), none])
-            }
-            Fault::Empty(ref path) => {
-                ("%: the file is empty; copy it again", [Value::Text(path), none])
-            }
+            Fault::File(ref path, _) => ("%", [Value::Text(path), none]),
             Fault::Show { line, what } => {
                 ("show.txt, line %: %", [Value::Number(line as usize), Value::Text(what)])
             }
-            Fault::Obj(ref path, _) | Fault::Ppm(ref path, _) => ("%, ", [Value::Text(path), none]),
-            Fault::Model(ref path, _) => ("%: ", [Value::Text(path), none]),
             Fault::Frame => ("the frame doesn't fit the memory; simplify the model", [none; 2]),
             Fault::Display => ("the display takes no data; check its wires and power", [none; 2]),
         };
         fill(what, &values, to);
-        match self {
-            Fault::Obj(_, error) => error.tell(to),
-            Fault::Ppm(_, error) => error.tell(to),
-            Fault::Model(_, fault) => fault.tell(to),
-            _ => {}
+        if let Fault::File(_, fault) = self {
+            fault.tell(to);
         }
     }
 }
@@ -224,3 +237,36 @@ impl fmt::Display for Fault {
 }
 
 impl core::error::Error for Fault {}
+
+/// A fault has been left in [`Faults`].
+#[derive(Clone, Copy, Debug)]
+pub struct Failed;
+
+/// Where whoever meets a fault leaves it. What is returned then is [`Failed`], so that a hundred bytes aren't moved at each `?`.
+#[derive(Debug, Default)]
+pub struct Faults(RefCell<Option<Fault>>);
+
+impl Faults {
+    /// Leaves a fault. One that is there already stays: it is the cause of those after it.
+    #[inline(never)]
+    pub fn leave(&self, fault: Fault) -> Failed {
+        self.0.borrow_mut().get_or_insert(fault);
+        Failed
+    }
+
+    /// Leaves a file's fault.
+    #[inline(never)]
+    pub fn leave_file(&self, path: &str, fault: FileFault) -> Failed {
+        self.leave(Fault::File(name(path), fault))
+    }
+
+    /// Whether the fault that was left is such a one.
+    pub fn is(&self, such: impl FnOnce(&Fault) -> bool) -> bool {
+        self.0.borrow().as_ref().is_some_and(such)
+    }
+
+    /// The fault that was left; then there is none any more.
+    pub fn take(&self) -> Option<Fault> {
+        self.0.take()
+    }
+}

@@ -26,7 +26,7 @@ use scanout_assets::number::Number;
 use scanout_assets::obj::{self, Corner, Element, Event};
 use scanout_assets::ppm;
 
-use crate::fault::{ModelFault, Part};
+use crate::fault::{FileFault, ModelFault, Part};
 use crate::scene::{Model, Placement};
 
 /// Greatest magnitude of a position on the grid, as the PC's loader has it.
@@ -95,15 +95,6 @@ struct State<'r, 'm> {
     high: [i32; 3],
 }
 
-/// Why an OBJ can't be used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ObjError {
-    /// Malformed.
-    Syntax(obj::Error),
-    /// Well-formed, but not to be shown.
-    Model(ModelFault),
-}
-
 impl<'r, 'm> ObjReader<'r, 'm> {
     /// A reader before the first byte.
     pub fn new(memory: &'r mut ModelMemory<'m>) -> Self {
@@ -127,7 +118,7 @@ impl<'r, 'm> ObjReader<'r, 'm> {
     ///
     /// # Errors
     /// The first line that is malformed or has no room; feed no more then.
-    pub fn feed(&mut self, chunk: &[u8]) -> Result<(), ObjError> {
+    pub fn feed(&mut self, chunk: &[u8]) -> Result<(), FileFault> {
         // By lines, so that a fault of the model has its line's number, too.
         for piece in chunk.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
             self.step(|parser, mut sink| parser.feed(piece, &mut sink))?;
@@ -140,15 +131,15 @@ impl<'r, 'm> ObjReader<'r, 'm> {
     /// # Errors
     /// As [`feed`](Self::feed), or there is nothing to draw.
     #[inline(never)]
-    pub fn finish(mut self) -> Result<Built, ObjError> {
+    pub fn finish(mut self) -> Result<Built, FileFault> {
         self.step(|parser, mut sink| parser.finish(&mut sink))?;
-        self.state.finish().map_err(ObjError::Model)
+        self.state.finish().map_err(FileFault::Model)
     }
 
     fn step(
         &mut self,
         read: impl FnOnce(&mut obj::Parser, &mut dyn FnMut(Event<'_>)) -> Result<(), obj::Error>,
-    ) -> Result<(), ObjError> {
+    ) -> Result<(), FileFault> {
         let ObjReader { parser, state } = self;
         let (line, mut fault) = (parser.line(), None);
         let result = read(parser, &mut |event| {
@@ -157,8 +148,8 @@ impl<'r, 'm> ObjReader<'r, 'm> {
             }
         });
         match (fault, result) {
-            (Some(fault), _) => Err(ObjError::Model(fault)),
-            (None, result) => result.map_err(ObjError::Syntax),
+            (Some(fault), _) => Err(FileFault::Model(fault)),
+            (None, result) => result.map_err(FileFault::Obj),
         }
     }
 }
@@ -456,15 +447,6 @@ pub struct PpmReader<'r> {
     size: Option<(u32, u32)>,
 }
 
-/// Why a picture can't be used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PpmError {
-    /// Malformed.
-    Syntax(ppm::Error),
-    /// Well-formed, but too large.
-    Model(ModelFault),
-}
-
 impl<'r> PpmReader<'r> {
     /// A reader before the first byte.
     pub fn new(texels: &'r mut [u16]) -> Self {
@@ -480,11 +462,11 @@ impl<'r> PpmReader<'r> {
     ///
     /// # Errors
     /// The file is malformed or its texels don't fit the memory; feed no more then.
-    pub fn feed(&mut self, chunk: &[u8]) -> Result<(), PpmError> {
+    pub fn feed(&mut self, chunk: &[u8]) -> Result<(), FileFault> {
         self.step(Some(chunk))
     }
 
-    fn step(&mut self, chunk: Option<&[u8]>) -> Result<(), PpmError> {
+    fn step(&mut self, chunk: Option<&[u8]>) -> Result<(), FileFault> {
         let PpmReader { parser, texels, count, size } = self;
         let mut take = |event: ppm::Event| match event {
             ppm::Event::Header { width, height } => *size = Some((width, height)),
@@ -502,21 +484,21 @@ impl<'r> PpmReader<'r> {
             None => parser.finish(&mut sink),
         };
         self.fits()?;
-        result.map_err(PpmError::Syntax)
+        result.map_err(FileFault::Ppm)
     }
 
     /// The file ends here.
     ///
     /// # Errors
     /// As [`feed`](Self::feed), or texels are missing.
-    pub fn finish(mut self) -> Result<Picture, PpmError> {
+    pub fn finish(mut self) -> Result<Picture, FileFault> {
         self.step(None)?;
         // Done, so there was a header, which fitted.
         let (width, height) = self.size.unwrap_or((0, 0));
         Ok(Picture { width: width as u16, height: height as u16 })
     }
 
-    fn fits(&self) -> Result<(), PpmError> {
+    fn fits(&self) -> Result<(), FileFault> {
         match self.size {
             Some((width, height))
                 if width > 1024
@@ -524,7 +506,7 @@ impl<'r> PpmReader<'r> {
                     || (width * height) as usize > self.texels.len() =>
             {
                 let most = self.texels.len();
-                Err(PpmError::Model(ModelFault::Texture { width, height, most }))
+                Err(FileFault::Model(ModelFault::Texture { width, height, most }))
             }
             _ => Ok(()),
         }

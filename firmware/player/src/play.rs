@@ -21,9 +21,9 @@ use scanout_display::flush::{self, BlockingInterface};
 use scanout_display::window::Area;
 
 use crate::card::{Card, Cost, Files, with_files};
-use crate::fault::{Fault, name};
+use crate::fault::{Failed, Fault, Faults, FileFault};
 use crate::message::{self, Words};
-use crate::model::{Built, ModelMemory, ObjError, ObjReader, Picture, PpmError, PpmReader, Totals};
+use crate::model::{Built, ModelMemory, ObjReader, Picture, PpmReader, Totals};
 use crate::pair::{self, Buffers, Harts};
 use crate::scene::{self, HEIGHT, WIDTH};
 use crate::show::{self, Show};
@@ -136,9 +136,6 @@ struct Loaded {
     show: Show,
     built: Built,
     picture: Option<Picture>,
-    /// Why there is no texture though one was asked for.
-    excuse: Option<Fault>,
-    bytes: u32,
 }
 
 /// Runs until the frames that were asked for are shown, or [`Board::again`] gives up.
@@ -146,8 +143,8 @@ struct Loaded {
 /// # Errors
 /// The fault that it gave up at.
 pub fn play<B: Board>(board: &mut B, memory: &mut Memory<'_>) -> Result<(), Fault> {
-    let mut display = false;
-    let mut loaded = loop {
+    let (mut display, faults) = (false, Faults::default());
+    let loaded = loop {
         if !display {
             display = board.start_display().is_ok();
             if !display && !told(board, memory, false, &Fault::Display) {
@@ -159,43 +156,39 @@ pub fn play<B: Board>(board: &mut B, memory: &mut Memory<'_>) -> Result<(), Faul
         }
         let cost = Cell::new(Cost::default());
         let (card, ..) = board.parts();
-        match with_files(card, &cost, |files| load(files, &mut memory.model)) {
-            Ok(loaded) => {
-                report(board, &loaded, cost.get());
-                break loaded;
-            }
-            Err(fault) => {
-                if !told(board, memory, true, &fault) {
-                    return Err(fault);
-                }
-                // Whatever is on the display now, it is started afresh: it may have been pulled out, too.
-                display = false;
-            }
+        let result = with_files(card, &cost, &faults, |files| load(files, &mut memory.model));
+        if let Ok(loaded) = &result {
+            report(board, loaded, cost.get());
+        }
+        // Why there is nothing to show, or no texture though one was asked for.
+        if let Some(fault) = faults.take()
+            && !told(board, memory, true, &fault)
+        {
+            return Err(fault);
+        }
+        match result {
+            Ok(loaded) => break loaded,
+            // Whatever is on the display now, it is started afresh: it may have been pulled out, too.
+            Err(Failed) => display = false,
         }
     };
-    if let Some(excuse) = loaded.excuse.take()
-        && !told(board, memory, true, &excuse)
-    {
-        return Err(excuse);
-    }
     frames(board, memory, &loaded)
 }
 
 #[inline(never)]
 fn report<B: Board>(board: &mut B, loaded: &Loaded, cost: Cost) {
     let Totals { positions, normals, uvs, triangles } = loaded.built.totals;
-    let Loaded { show, bytes, .. } = loaded;
-    let Cost { sectors, repeated } = cost;
-    let number = |number: &u32| Value::Number(*number as usize);
+    let Cost { bytes, sectors, repeated } = cost;
+    let number = |number: u32| Value::Number(number as usize);
     let values = [
-        Value::Text(&show.model),
+        Value::Text(&loaded.show.model),
         Value::Number(positions),
         Value::Number(uvs),
         Value::Number(normals),
         Value::Number(triangles),
         number(bytes),
-        number(&sectors),
-        number(&repeated),
+        number(sectors),
+        number(repeated),
     ];
     fill(
         "%: % v, % vt, % vn, % triangles\n% bytes of files, % sectors read, % of them again\n",
@@ -227,68 +220,68 @@ fn say_fault<B: Board>(board: &mut B, fault: &Fault) {
     board.say(b"\n");
 }
 
+/// Reads the model and its texture. Without the texture it goes on, and why there is none is left in the files' faults.
 #[inline(never)]
-fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Result<Loaded, Fault> {
-    let mut bytes = 0;
-    let (mut text, mut length) = ([0; 1024], 0);
-    let read = files.read("show.txt", &mut |chunk| {
-        let room = text.get_mut(length..length + chunk.len());
-        let room = room.ok_or(Fault::Show { line: 1, what: "longer than 1024 bytes" })?;
-        room.copy_from_slice(chunk);
-        length += chunk.len();
-        Ok(ControlFlow::Continue(()))
-    });
-    let show = match read {
-        Ok(count) => {
-            bytes += count;
-            Show::parse(&text[..length])?
-        }
-        Err(Fault::Missing(_)) => Show::default(),
-        Err(fault) => return Err(fault),
-    };
-    let path = || name(&show.model);
-    let told = |error| match error {
-        ObjError::Syntax(error) => Fault::Obj(path(), error),
-        ObjError::Model(fault) => Fault::Model(path(), fault),
-    };
+fn load<C: Card>(files: &Files<'_, '_, C>, memory: &mut ModelMemory<'_>) -> Result<Loaded, Failed> {
+    let faults = files.faults;
+    let show = settings(files)?;
+    let told = |fault| faults.leave_file(&show.model, fault);
     let mut reader = ObjReader::new(memory);
-    bytes += files.read(&show.model, &mut |chunk| {
+    files.read(&show.model, &mut |chunk| {
         reader.feed(chunk).map_err(told)?;
         Ok(ControlFlow::Continue(()))
     })?;
     let built = reader.finish().map_err(told)?;
-    let (mut picture, mut excuse) = (None, None);
-    if !show.texture.is_empty() {
-        match texture(files, &show, memory) {
-            Ok((texels, count)) => {
-                picture = Some(texels);
-                bytes += count;
-            }
-            // The card's own faults are tried again; the model does without a picture that is no good.
-            Err(fault @ (Fault::Card { .. } | Fault::Damaged(_))) => return Err(fault),
-            Err(fault) => excuse = Some(fault),
-        }
+    let picture = texture(files, &show.texture, memory);
+    // The card's own faults are tried again; the model does without a picture that is no good.
+    if faults.is(|fault| matches!(fault, Fault::Card { .. } | Fault::Damaged(_))) {
+        return Err(Failed);
     }
-    Ok(Loaded { show, built, picture, excuse, bytes })
+    Ok(Loaded { show, built, picture })
 }
 
+/// What `show.txt` says, if there is one.
+#[inline(never)]
+fn settings<C: Card>(files: &Files<'_, '_, C>) -> Result<Show, Failed> {
+    let faults = files.faults;
+    let (mut text, mut length) = ([0; 1024], 0);
+    let read = files.read("show.txt", &mut |chunk| {
+        let room = text.get_mut(length..length + chunk.len());
+        let too_long = || faults.leave(Fault::Show { line: 1, what: "longer than 1024 bytes" });
+        room.ok_or_else(too_long)?.copy_from_slice(chunk);
+        length += chunk.len();
+        Ok(ControlFlow::Continue(()))
+    });
+    if read.is_err() {
+        if !faults.is(|fault| matches!(fault, Fault::File(_, FileFault::Missing))) {
+            return Err(Failed);
+        }
+        faults.take();
+    }
+    let mut show = Show::default();
+    show.read(&text[..length]).map_err(|fault| faults.leave(fault))?;
+    Ok(show)
+}
+
+/// The picture at `path`; none where that is empty, or with a fault.
 #[inline(never)]
 fn texture<C: Card>(
     files: &Files<'_, '_, C>,
-    show: &Show,
+    path: &str,
     memory: &mut ModelMemory<'_>,
-) -> Result<(Picture, u32), Fault> {
-    let path = || name(&show.texture);
-    let told = |error| match error {
-        PpmError::Syntax(error) => Fault::Ppm(path(), error),
-        PpmError::Model(fault) => Fault::Model(path(), fault),
-    };
+) -> Option<Picture> {
+    if path.is_empty() {
+        return None;
+    }
+    let told = |fault| files.faults.leave_file(path, fault);
     let mut reader = PpmReader::new(memory.texels);
-    let bytes = files.read(&show.texture, &mut |chunk| {
-        reader.feed(chunk).map_err(told)?;
-        Ok(if reader.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
-    })?;
-    Ok((reader.finish().map_err(told)?, bytes))
+    files
+        .read(path, &mut |chunk| {
+            reader.feed(chunk).map_err(told)?;
+            Ok(if reader.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        })
+        .ok()?;
+    reader.finish().map_err(told).ok()
 }
 
 #[inline(never)]

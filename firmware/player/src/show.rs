@@ -12,7 +12,7 @@
 
 use heapless::String;
 use scanout::math::Q16;
-use scanout_assets::number::Number;
+use scanout_assets::number::{Number, whole};
 
 use crate::fault::Fault;
 
@@ -55,29 +55,28 @@ impl Default for Show {
 }
 
 impl Show {
-    /// Reads the file's text.
+    /// Reads the file's text; what it doesn't say stays as it is.
     ///
     /// # Errors
     /// The first line that isn't understood.
     #[inline(never)]
-    pub fn parse(text: &[u8]) -> Result<Show, Fault> {
-        let mut show = Show::default();
+    pub fn read(&mut self, text: &[u8]) -> Result<(), Fault> {
         for (index, line) in text.split(|&byte| byte == b'\n').enumerate() {
             let line = line.trim_ascii();
             if line.is_empty() || line[0] == b'#' {
                 continue;
             }
-            show.line(line).map_err(|what| Fault::Show { line: index as u32 + 1, what })?;
+            self.line(line).map_err(|what| Fault::Show { line: index as u32 + 1, what })?;
         }
-        Ok(show)
+        Ok(())
     }
 
     fn line(&mut self, line: &[u8]) -> Result<(), &'static str> {
         let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
         let (word, value) = (&line[..end], line[end..].trim_ascii());
         match word {
-            b"model" => self.model = path(value)?,
-            b"texture" => self.texture = path(value)?,
+            b"model" => path(value, &mut self.model)?,
+            b"texture" => path(value, &mut self.texture)?,
             b"scale" => {
                 self.scale = Number::parse(value)
                     .map(|number| Q16(number.to_q16()))
@@ -85,9 +84,8 @@ impl Show {
                     .ok_or("scale wants a number above 0 and at most 100")?;
             }
             b"frames" => {
-                self.frames = core::str::from_utf8(value)
-                    .ok()
-                    .and_then(|value| value.parse().ok())
+                self.frames = whole(value.strip_prefix(b"+").unwrap_or(value))
+                    .and_then(|frames| frames.try_into().ok())
                     .ok_or("frames wants a whole number; 0 is without end")?;
             }
             b"harts" => {
@@ -104,26 +102,33 @@ impl Show {
     }
 }
 
-fn path(value: &[u8]) -> Result<String<PATH>, &'static str> {
+#[inline(never)]
+fn path(value: &[u8], to: &mut String<PATH>) -> Result<(), &'static str> {
     let text = core::str::from_utf8(value).map_err(|_| "the path is not UTF-8")?;
     if text.is_empty() {
         return Err("a path is missing");
     }
-    String::try_from(text).map_err(|_| "the path is longer than 128 bytes")
+    to.clear();
+    to.push_str(text).map_err(|_| "the path is longer than 128 bytes")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn parse(text: &[u8]) -> Result<Show, Fault> {
+        let mut show = Show::default();
+        show.read(text).map(|()| show)
+    }
+
     #[test]
     fn words_and_values() {
         let text = b"# a turn\r\nmodel my models/a b.obj\r\ntexture x.ppm\r\n\r\nscale 3.5e-1\nframes 90\nharts both";
-        let show = Show::parse(text).unwrap();
+        let show = parse(text).unwrap();
         assert_eq!(show.model, "my models/a b.obj");
         assert_eq!((show.texture.as_str(), show.scale), ("x.ppm", Q16(22938)));
         assert_eq!((show.frames, show.harts), (90, Some(Harts::Both)));
-        assert_eq!(Show::parse(b"").unwrap(), Show::default());
+        assert_eq!(parse(b"").unwrap(), Show::default());
     }
 
     #[test]
@@ -133,16 +138,20 @@ mod tests {
             ("scale -1", 1),
             ("scale 101", 1),
             ("frames many", 1),
+            ("frames", 1),
+            ("frames -1", 1),
+            ("frames 1.5", 1),
+            ("frames 4294967296", 1),
             ("harts three", 1),
             ("modle a.obj", 1),
             ("model", 1),
         ] {
-            match Show::parse(text.as_bytes()) {
+            match parse(text.as_bytes()) {
                 Err(Fault::Show { line, .. }) => assert_eq!(line, at, "{text}"),
                 other => panic!("{text}: {other:?}"),
             }
         }
         let long = ["model ", &"x".repeat(129)].concat();
-        assert!(Show::parse(long.as_bytes()).is_err());
+        assert!(parse(long.as_bytes()).is_err());
     }
 }
