@@ -121,7 +121,7 @@ impl<'r, 'm> ObjReader<'r, 'm> {
     pub fn feed(&mut self, chunk: &[u8]) -> Result<(), FileFault> {
         // By lines, so that a fault of the model has its line's number, too.
         for piece in chunk.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
-            self.step(|parser, mut sink| parser.feed(piece, &mut sink))?;
+            self.line(Some(piece))?;
         }
         Ok(())
     }
@@ -131,22 +131,27 @@ impl<'r, 'm> ObjReader<'r, 'm> {
     /// # Errors
     /// As [`feed`](Self::feed), or there is nothing to draw.
     #[inline(never)]
-    pub fn finish(mut self) -> Result<Built, FileFault> {
-        self.step(|parser, mut sink| parser.finish(&mut sink))?;
+    pub fn finish(&mut self) -> Result<Built, FileFault> {
+        self.line(None)?;
         self.state.finish().map_err(FileFault::Model)
     }
 
-    fn step(
-        &mut self,
-        read: impl FnOnce(&mut obj::Parser, &mut dyn FnMut(Event<'_>)) -> Result<(), obj::Error>,
-    ) -> Result<(), FileFault> {
+    /// Reads a line or a piece of one; no bytes are the end of the file.
+    #[inline(never)]
+    fn line(&mut self, bytes: Option<&[u8]>) -> Result<(), FileFault> {
         let ObjReader { parser, state } = self;
         let (line, mut fault) = (parser.line(), None);
-        let result = read(parser, &mut |event| {
+        let mut take = |event: Event<'_>| {
             if fault.is_none() {
                 fault = state.event(event, line).err();
             }
-        });
+        };
+        // By reference, so that there is one copy of the parser.
+        let mut sink: &mut dyn FnMut(Event<'_>) = &mut take;
+        let result = match bytes {
+            Some(bytes) => parser.feed(bytes, &mut sink),
+            None => parser.finish(&mut sink),
+        };
         match (fault, result) {
             (Some(fault), _) => Err(FileFault::Model(fault)),
             (None, result) => result.map_err(FileFault::Obj),
@@ -158,17 +163,17 @@ impl State<'_, '_> {
     fn event(&mut self, event: Event<'_>, line: u32) -> Result<(), ModelFault> {
         let full = |part, most| ModelFault::TooMany { line, part, most };
         match event {
-            Event::Position { xyz, .. } => {
+            Event::Position { ref xyz, .. } => {
                 // One step of an index is left for "no index".
                 let most =
                     self.memory.millionths.len().min(self.memory.positions.len()).min(65_535);
                 if self.totals.positions == most {
                     return Err(full(Part::Positions, most));
                 }
-                let far = ModelFault::TooFar { line };
-                let [x, y, z] = xyz.map(millionths);
-                let position = [x.ok_or(far)?, y.ok_or(far)?, z.ok_or(far)?];
-                self.memory.millionths[self.totals.positions] = position;
+                let slot = &mut self.memory.millionths[self.totals.positions];
+                for (coordinate, number) in slot.iter_mut().zip(xyz) {
+                    *coordinate = millionths(*number).ok_or(ModelFault::TooFar { line })?;
+                }
                 self.totals.positions += 1;
             }
             Event::Normal(xyz) => {
@@ -260,9 +265,11 @@ impl State<'_, '_> {
         if index == most {
             return Err(ModelFault::TooMany { line, part: Part::Triangles, most });
         }
-        let corners = which.map(|i| self.corners[i]);
-        memory.triangles[index] = corners.map(|c| c.position as u16);
-        memory.uv_triangles[index] = corners.map(|c| c.uv.map_or(NONE, |uv| uv as u16));
+        for (place, corner) in which.into_iter().enumerate() {
+            let Corner { position, uv, .. } = self.corners[corner];
+            memory.triangles[index][place] = position as u16;
+            memory.uv_triangles[index][place] = uv.map_or(NONE, |uv| uv as u16);
+        }
         memory.face_normals[index] =
             self.corners[0].normal.map_or([0; 3], |normal| memory.normals[normal as usize]);
         self.totals.triangles += 1;
@@ -299,21 +306,24 @@ impl State<'_, '_> {
         }
     }
 
-    fn finish(self) -> Result<Built, ModelFault> {
+    fn finish(&mut self) -> Result<Built, ModelFault> {
         if self.totals.triangles == 0 {
             return Err(ModelFault::Nothing);
         }
-        let ends = |i: usize| (i64::from(self.low[i]), i64::from(self.high[i]));
-        // Twice the half side, in millionths.
-        let side = (0..3).map(|i| ends(i).1 - ends(i).0).max().unwrap_or(0);
+        // In millionths: twice the half side, twice the middle.
+        let (mut side, mut middle) = (0, [0; 3]);
+        for axis in 0..3 {
+            let (low, high) = (i64::from(self.low[axis]), i64::from(self.high[axis]));
+            side = side.max(high - low);
+            middle[axis] = low + high;
+        }
         let Totals { positions, triangles, .. } = self.totals;
         let (from, to) =
             (&self.memory.millionths[..positions], &mut self.memory.positions[..positions]);
         for (from, to) in from.iter().zip(to) {
-            *to = core::array::from_fn(|i| {
-                let (low, high) = ends(i);
-                on_grid(2 * i64::from(from[i]) - low - high, side)
-            });
+            for axis in 0..3 {
+                to[axis] = on_grid(2 * i64::from(from[axis]) - middle[axis], side);
+            }
         }
         let mut totals = self.totals;
         if self.textured && self.bare {
@@ -337,10 +347,7 @@ impl State<'_, '_> {
                 // Half the side / 10^6 * 32768 / 32760, Q32.32.
                 ratio(side, 47, 2_000_000 * RANGE)
             },
-            offset: core::array::from_fn(|i| {
-                let (low, high) = ends(i);
-                ratio(low + high, 32, 2_000_000)
-            }),
+            offset: middle.map(|middle| ratio(middle, 32, 2_000_000)),
         };
         Ok(Built { totals, placement, flat: self.flat, textured: self.textured })
     }
@@ -491,7 +498,7 @@ impl<'r> PpmReader<'r> {
     ///
     /// # Errors
     /// As [`feed`](Self::feed), or texels are missing.
-    pub fn finish(mut self) -> Result<Picture, FileFault> {
+    pub fn finish(&mut self) -> Result<Picture, FileFault> {
         self.step(None)?;
         // Done, so there was a header, which fitted.
         let (width, height) = self.size.unwrap_or((0, 0));

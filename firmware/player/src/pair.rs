@@ -1,4 +1,4 @@
-//! Two harts make a frame: one renders and the other sends, as in system B, or both do both.
+//! Two harts make a frame: one renders and the other sends, as in system B, or both do both. One hart alone makes it, too.
 //!
 //! ```text
 //!  relay   hart 0   draw 0 | draw 1 | draw 2 | ...            two buffers of colour, one of depth
@@ -18,12 +18,15 @@
 #![allow(unsafe_code)]
 
 use core::cell::UnsafeCell;
+use core::ops::Range;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-use scanout::frame::{BandError, DrawError, Frame};
+use scanout::frame::Frame;
 use scanout_display::band::SendError;
 use scanout_display::flush::{BlockingInterface, flush};
 use scanout_display::window::Area;
+
+use crate::show::Harts as Sharing;
 
 /// A machine's harts.
 pub trait Harts {
@@ -110,14 +113,7 @@ impl Harts for Mailbox {
                 }
             }
         }
-        let filling = (EMPTY, BEING_FILLED);
-        while self
-            .state
-            .compare_exchange_weak(filling.0, filling.1, Ordering::Acquire, Ordering::Relaxed)
-            .is_err()
-        {
-            wait();
-        }
+        move_on(&self.state, EMPTY, BEING_FILLED);
         // SAFETY: only the lifetime changes. `Done` keeps this call, and so the loan, until the job has ended.
         let job = unsafe { core::mem::transmute::<&mut (dyn FnMut() + Send), Job>(there) };
         // SAFETY: this hart moved the state to BEING_FILLED, so the content is its; see `Sync`.
@@ -157,129 +153,179 @@ impl<T> Turns<T> {
     /// Waits for a turn and takes it. A turn that was taken before never comes again.
     pub fn take<R>(&self, turn: usize, with: impl FnOnce(&mut T) -> R) -> R {
         let (open, taken) = (2 * turn, 2 * turn + 1);
-        while self
-            .next
-            .compare_exchange_weak(open, taken, Ordering::Acquire, Ordering::Relaxed)
-            .is_err()
-        {
-            wait();
-        }
+        move_on(&self.next, open, taken);
         // SAFETY: this hart alone has taken the turn; see `Sync`.
         let result = with(unsafe { &mut *self.value.get() });
         self.next.store(taken + 1, Ordering::Release);
         result
+    }
+
+    /// The value, when all turns are over.
+    pub fn into_inner(self) -> T {
+        self.value.into_inner()
+    }
+}
+
+/// Waits until `state` is `from` and makes it `to`; what was written before that is seen then.
+#[inline(never)]
+fn move_on(state: &AtomicUsize, from: usize, to: usize) {
+    while state.compare_exchange_weak(from, to, Ordering::Acquire, Ordering::Relaxed).is_err() {
+        wait();
     }
 }
 
 /// Memory for two harts.
 #[derive(Debug)]
 pub struct Buffers<'m> {
-    /// Colour, one band each.
+    /// Colour, one band each; one hart alone uses the first.
     pub colour: [&'m mut [u16]; 2],
-    /// Depth, one band each; a relay uses the first.
+    /// Depth, one band each; a relay and one hart alone use the first.
     pub depth: [&'m mut [u16]; 2],
 }
 
-/// What a frame's bands come to.
-type Shown<I> = Result<(), DrawError<SendError<<I as BlockingInterface>::Error>>>;
+/// Why a frame was not shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrong {
+    /// The memory is too small for a row, or the frame doesn't fit the display.
+    Memory,
+    /// The bus failed.
+    Bus,
+}
 
-/// The rows of a band that the memory allows, or how much would be needed.
-fn lines(frame: &Frame<'_>, memory: [usize; 4]) -> Result<u16, BandError> {
-    let row = usize::from(frame.settings().width).max(1);
-    match memory.into_iter().min().unwrap_or(0) / row {
-        0 => Err(BandError::Memory { colour: row, depth: row }),
-        lines => Ok(lines.min(u16::MAX.into()) as u16),
+type Outcome = Result<(), Wrong>;
+
+/// Draws and sends a frame, in bands as tall as the smallest buffer allows.
+///
+/// # Errors
+/// After the first failure the other bands are drawn, since the other hart waits for its turns, and not sent.
+pub fn show<I: BlockingInterface<Error: Send> + Send>(
+    frame: &Frame<'_>,
+    interface: &mut I,
+    area: Area,
+    buffers: &mut Buffers<'_>,
+    harts: &impl Harts,
+    sharing: Sharing,
+) -> Outcome {
+    let ([front, back], [near, far]) = (&mut buffers.colour, &mut buffers.depth);
+    let (width, height) = (frame.settings().width, frame.settings().height);
+    let memory = front.len().min(back.len()).min(near.len()).min(far.len());
+    let lines = (memory / usize::from(width.max(1))).min(height.into()) as u16;
+    if lines == 0 {
+        return Err(Wrong::Memory);
+    }
+    let bands = Bands { frame, area, lines };
+    match sharing {
+        Sharing::Relay => relay(&bands, interface, [&mut **front, &mut **back], near, harts),
+        Sharing::Both | Sharing::One => {
+            let step = if sharing == Sharing::Both { 2 } else { 1 };
+            let bus = Turns::new((interface, Ok(())));
+            let (mut one, mut other) = (Ok(()), Ok(()));
+            let mut here = || one = bands.share(&bus, 0, step, front, near);
+            if sharing == Sharing::Both {
+                harts.join(&mut here, &mut || other = bands.share(&bus, 1, step, back, far));
+            } else {
+                here();
+            }
+            one.and(other).and(bus.into_inner().1)
+        }
+    }
+}
+
+/// Draws on this hart what the other sends.
+fn relay<I: BlockingInterface<Error: Send> + Send>(
+    bands: &Bands<'_>,
+    interface: &mut I,
+    colour: [&mut [u16]; 2],
+    depth: &mut [u16],
+    harts: &impl Harts,
+) -> Outcome {
+    let slots = colour.map(Turns::new);
+    let (mut drawn, mut sent) = (Ok(()), Ok(()));
+    let mut draw = || {
+        for band in 0..bands.count() {
+            slots[band % 2]
+                .take(band / 2 * 2, |colour| bands.draw(band, colour, depth, &mut drawn));
+        }
+    };
+    let mut send = || {
+        for band in 0..bands.count() {
+            let turn = band / 2 * 2 + 1;
+            slots[band % 2].take(turn, |colour| bands.send(band, colour, interface, &mut sent));
+        }
+    };
+    harts.join(&mut draw, &mut send);
+    drawn.and(sent)
+}
+
+/// A frame cut into bands of some lines.
+struct Bands<'f> {
+    frame: &'f Frame<'f>,
+    area: Area,
+    lines: u16,
+}
+
+impl Bands<'_> {
+    fn count(&self) -> usize {
+        self.frame.settings().height.div_ceil(self.lines).into()
+    }
+
+    /// The rows of a band, and its part of a buffer of colour.
+    fn of<'c>(&self, band: usize, colour: &'c mut [u16]) -> (Range<u16>, &'c mut [u16]) {
+        let rows = rows(band, self.lines, self.frame.settings().height);
+        let pixels = rows.len() * usize::from(self.frame.settings().width);
+        (rows, &mut colour[..pixels])
+    }
+
+    #[inline(never)]
+    fn draw(&self, band: usize, colour: &mut [u16], depth: &mut [u16], outcome: &mut Outcome) {
+        let (rows, colour) = self.of(band, colour);
+        if self.frame.draw_rows_rgb565(rows, colour, depth).is_err() {
+            *outcome = Err(Wrong::Memory);
+        }
+    }
+
+    /// Sends a band, unless one before it failed.
+    #[inline(never)]
+    fn send<I: BlockingInterface>(
+        &self,
+        band: usize,
+        colour: &mut [u16],
+        interface: &mut I,
+        outcome: &mut Outcome,
+    ) {
+        let (rows, colour) = self.of(band, colour);
+        if outcome.is_ok() {
+            *outcome = match flush(interface, self.area, rows.start, colour) {
+                Ok(()) => Ok(()),
+                Err(SendError::Bus(_)) => Err(Wrong::Bus),
+                Err(_) => Err(Wrong::Memory),
+            };
+        }
+    }
+
+    /// Draws and sends every `step`th band from `first` on; the bus is used by band k at its turn k.
+    #[inline(never)]
+    fn share<I: BlockingInterface>(
+        &self,
+        bus: &Turns<(&mut I, Outcome)>,
+        first: usize,
+        step: usize,
+        colour: &mut [u16],
+        depth: &mut [u16],
+    ) -> Outcome {
+        let mut drawn = Ok(());
+        for band in (first..self.count()).step_by(step) {
+            self.draw(band, colour, depth, &mut drawn);
+            bus.take(band, |(interface, sent)| self.send(band, colour, *interface, sent));
+        }
+        drawn
     }
 }
 
 /// The rows of band `index`; empty beyond the last.
-fn rows(index: usize, lines: u16, height: u16) -> core::ops::Range<u16> {
+fn rows(index: usize, lines: u16, height: u16) -> Range<u16> {
     let top = (index * usize::from(lines)).min(height.into()) as u16;
     top..height.min(top.saturating_add(lines))
-}
-
-/// Draws on this hart what the other sends.
-///
-/// # Errors
-/// When the memory is too small for a row, the frame doesn't fit the area, or the bus fails; the other bands are then drawn
-/// and not sent.
-pub fn relay<I: BlockingInterface<Error: Send> + Send>(
-    frame: &Frame<'_>,
-    interface: &mut I,
-    area: Area,
-    buffers: &mut Buffers<'_>,
-    harts: &impl Harts,
-) -> Shown<I> {
-    let [front, back] = &mut buffers.colour;
-    let depth = &mut *buffers.depth[0];
-    let lines = lines(frame, [front.len(), back.len(), depth.len(), usize::MAX])
-        .map_err(DrawError::Band)?;
-    let (width, height) = (usize::from(frame.settings().width), frame.settings().height);
-    let bands = usize::from(height.div_ceil(lines));
-    let slots = [Turns::new(&mut **front), Turns::new(&mut **back)];
-    let (mut drawn, mut sent) = (Ok(()), Ok(()));
-    let mut draw = || {
-        for band in 0..bands {
-            let rows = rows(band, lines, height);
-            // A band is drawn even after a failure: the other hart waits for its turn.
-            let result = slots[band % 2].take(band / 2 * 2, |colour| {
-                let colour = &mut colour[..rows.len() * width];
-                frame.draw_rows_rgb565(rows, colour, depth)
-            });
-            drawn = drawn.and(result);
-        }
-    };
-    let mut send = || {
-        for band in 0..bands {
-            let rows = rows(band, lines, height);
-            slots[band % 2].take(band / 2 * 2 + 1, |colour| {
-                if sent.is_ok() {
-                    sent = flush(interface, area, rows.start, &mut colour[..rows.len() * width]);
-                }
-            });
-        }
-    };
-    harts.join(&mut draw, &mut send);
-    drawn.map_err(DrawError::Band)?;
-    sent.map_err(DrawError::Sink)
-}
-
-/// Draws and sends on both harts, every second band each.
-///
-/// # Errors
-/// As [`relay`].
-pub fn both<I: BlockingInterface<Error: Send> + Send>(
-    frame: &Frame<'_>,
-    interface: &mut I,
-    area: Area,
-    buffers: &mut Buffers<'_>,
-    harts: &impl Harts,
-) -> Shown<I> {
-    let ([front, back], [near, far]) = (&mut buffers.colour, &mut buffers.depth);
-    let memory = [front.len(), back.len(), near.len(), far.len()];
-    let lines = lines(frame, memory).map_err(DrawError::Band)?;
-    let (width, height) = (usize::from(frame.settings().width), frame.settings().height);
-    let bands = usize::from(height.div_ceil(lines));
-    // The bus, and whether it still works.
-    let bus = Turns::new((interface, Ok(())));
-    let work = |first: usize, colour: &mut [u16], depth: &mut [u16]| {
-        let mut drawn = Ok(());
-        for band in (first..bands).step_by(2) {
-            let rows = rows(band, lines, height);
-            let colour = &mut colour[..rows.len() * width];
-            drawn = drawn.and(frame.draw_rows_rgb565(rows.clone(), colour, depth));
-            bus.take(band, |(interface, sent)| {
-                if sent.is_ok() {
-                    *sent = flush(*interface, area, rows.start, colour);
-                }
-            });
-        }
-        drawn
-    };
-    let (mut one, mut other) = (Ok(()), Ok(()));
-    harts.join(&mut || one = work(0, front, near), &mut || other = work(1, back, far));
-    one.and(other).map_err(DrawError::Band)?;
-    bus.take(bands, |(_, sent)| core::mem::replace(sent, Ok(()))).map_err(DrawError::Sink)
 }
 
 #[cfg(test)]

@@ -13,18 +13,17 @@
 use core::cell::Cell;
 use core::ops::ControlFlow;
 
-use scanout::frame::{DrawError, Frame, ObjectState, Primitive, Settings, Store};
+use scanout::frame::{Frame, ObjectState, Primitive, Settings, Store};
 use scanout::transform::Vertex;
 use scanout_assets::text::{Value, fill};
-use scanout_display::band::SendError;
-use scanout_display::flush::{self, BlockingInterface};
+use scanout_display::flush::BlockingInterface;
 use scanout_display::window::Area;
 
 use crate::card::{Card, Cost, Files, with_files};
 use crate::fault::{Failed, Fault, Faults, FileFault};
 use crate::message::{self, Words};
 use crate::model::{Built, ModelMemory, ObjReader, Picture, PpmReader, Totals};
-use crate::pair::{self, Buffers, Harts};
+use crate::pair::{self, Buffers, Harts, Wrong};
 use crate::scene::{self, HEIGHT, WIDTH};
 use crate::show::{self, Show};
 
@@ -286,9 +285,9 @@ fn texture<C: Card>(
 
 #[inline(never)]
 fn frames<B: Board>(board: &mut B, memory: &mut Memory<'_>, loaded: &Loaded) -> Result<(), Fault> {
-    let Loaded { show, built, picture, .. } = loaded;
-    let harts = show.harts.unwrap_or(show::Harts::Relay);
-    let harts = if <B::Harts as Harts>::TWO { harts } else { show::Harts::One };
+    let Loaded { show, built, picture } = loaded;
+    let sharing = show.harts.unwrap_or(show::Harts::Relay);
+    let sharing = if <B::Harts as Harts>::TWO { sharing } else { show::Harts::One };
     let mut number = 0;
     while show.frames == 0 || number < show.frames {
         let Memory { model, vertices, primitives, buffers } = memory;
@@ -298,19 +297,8 @@ fn frames<B: Board>(board: &mut B, memory: &mut Memory<'_>, loaded: &Loaded) -> 
             let store = Store { vertices, primitives, objects: &mut objects };
             let frame = Frame::prepare(scene, Settings::new(WIDTH, HEIGHT), store)
                 .map_err(|_| Wrong::Memory)?;
-            let (_, bus, pool) = board.parts();
-            let shown = match harts {
-                show::Harts::Relay => pair::relay(&frame, bus, AREA, buffers, pool),
-                show::Harts::Both => pair::both(&frame, bus, AREA, buffers, pool),
-                show::Harts::One => {
-                    let ([colour, _], [depth, _]) = (&mut buffers.colour, &mut buffers.depth);
-                    flush::show(&frame, bus, AREA, colour, depth, |_| ())
-                }
-            };
-            shown.map_err(|error| match error {
-                DrawError::Sink(SendError::Bus(_)) => Wrong::Display,
-                _ => Wrong::Memory,
-            })
+            let (_, bus, harts) = board.parts();
+            pair::show(&frame, bus, AREA, buffers, harts, sharing)
         });
         match result {
             Ok(()) => {
@@ -318,7 +306,7 @@ fn frames<B: Board>(board: &mut B, memory: &mut Memory<'_>, loaded: &Loaded) -> 
                 number += 1;
             }
             // The same frame again, once the display takes it.
-            Err(Wrong::Display) => loop {
+            Err(Wrong::Bus) => loop {
                 if !told(board, memory, false, &Fault::Display) {
                     return Err(Fault::Display);
                 }
@@ -333,10 +321,4 @@ fn frames<B: Board>(board: &mut B, memory: &mut Memory<'_>, loaded: &Loaded) -> 
         }
     }
     Ok(())
-}
-
-/// Why a frame was not shown.
-enum Wrong {
-    Memory,
-    Display,
 }

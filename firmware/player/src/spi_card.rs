@@ -79,6 +79,7 @@ impl<S: Clocked, D: DelayNs> Card for SpiCard<S, D> {
         }
     }
 
+    #[inline(never)]
     fn fault(error: &Error) -> CardFault {
         match error {
             Error::CardNotFound => CardFault::Missing,
