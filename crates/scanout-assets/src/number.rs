@@ -165,7 +165,17 @@ mod tests {
     #[test]
     fn whole_numbers_are_those_of_the_standard_library() {
         for text in [
-            "0", "007", "4294967296", "18446744073709551615", "", "-1", "1.", "1e0", " 1", "1 ", "0x1",
+            "0",
+            "007",
+            "4294967296",
+            "18446744073709551615",
+            "",
+            "-1",
+            "1.",
+            "1e0",
+            " 1",
+            "1 ",
+            "0x1",
         ] {
             assert_eq!(whole(text.as_bytes()), text.parse().ok(), "{text}");
         }

@@ -249,8 +249,7 @@ impl Parser {
                     self.end_line(sink)
                 };
                 result?;
-                self.line =
-                    self.line.checked_add(1).ok_or(ErrorKind::TooMany)?;
+                self.line = self.line.checked_add(1).ok_or(ErrorKind::TooMany)?;
                 Ok(())
             }
             _ => {
@@ -355,9 +354,7 @@ impl Parser {
                     ])),
                     _ => sink(Event::Normal(xyz)),
                 }
-                self.totals[which] = self.totals[which]
-                    .checked_add(1)
-                    .ok_or(ErrorKind::TooMany)?;
+                self.totals[which] = self.totals[which].checked_add(1).ok_or(ErrorKind::TooMany)?;
             }
             _ => {}
         }
@@ -390,8 +387,7 @@ impl Parser {
     }
 
     fn number(&mut self) -> Result<(), ErrorKind> {
-        let number = Number::parse(&self.word[..self.length])
-            .ok_or(ErrorKind::NotANumber)?;
+        let number = Number::parse(&self.word[..self.length]).ok_or(ErrorKind::NotANumber)?;
         // Extra numbers are checked and dropped, as every other reader does.
         if let Some(slot) = self.numbers.get_mut(self.count) {
             *slot = number;

@@ -312,10 +312,10 @@ impl State<'_, '_> {
         }
         // In millionths: twice the half side, twice the middle.
         let (mut side, mut middle) = (0, [0; 3]);
-        for axis in 0..3 {
-            let (low, high) = (i64::from(self.low[axis]), i64::from(self.high[axis]));
+        for (middle, (low, high)) in middle.iter_mut().zip(self.low.into_iter().zip(self.high)) {
+            let (low, high) = (i64::from(low), i64::from(high));
             side = side.max(high - low);
-            middle[axis] = low + high;
+            *middle = low + high;
         }
         let Totals { positions, triangles, .. } = self.totals;
         let (from, to) =
