@@ -6,7 +6,7 @@ mod alike;
 
 use core::ops::Range;
 
-use self::alike::by_rows;
+use self::alike::{by_rows, shortest};
 use super::fragment::{Flat, Fogged, Gouraud, Phong, Shader, Signed, Textured, Tinted};
 use super::prepare::{geometric_normal, lighting, surface_colour};
 use super::target::Target;
@@ -378,7 +378,15 @@ impl<'f> Painter<'f> {
     ) {
         match RepeatPalette::new(texture) {
             Some(sampler) if features::PALETTE_TEXTURES => {
-                self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
+                if !target.walks() || (features::FOG && self.frame.fog.is_some()) {
+                    self.fog(t, v, z, Textured::new(t, shader, sampler, uv, q), target);
+                } else if S::CONSTANT {
+                    let rgb = shader.colour(&shader.at(0, 0));
+                    let inner = Tinted { rgb, tint: Factors::new(rgb) };
+                    shortest(target, t, z, inner, sampler, uv, q);
+                } else {
+                    shortest(target, t, z, shader, sampler, uv, q);
+                }
             }
             _ if features::ALL_TEXTURES => {
                 let sampler = General(texture);

@@ -14,12 +14,12 @@ use crate::interpolate::Plane;
 use crate::output::{PixelFormat, widen565};
 use crate::setup::Triangle;
 use crate::shade::modulate;
-use crate::texture::{Across, Along, Block, Perspective, Repeat565};
+use crate::texture::{Across, Along, Block, Perspective, Plain};
 
 /// Another shader's colour times a texel, which comes by a [`Way`] where it is certain.
-pub(super) struct Walked<'a, S, W> {
+pub(super) struct Walked<S, T, W> {
     pub inner: S,
-    pub sampler: Repeat565<'a>,
+    pub sampler: T,
     pub way: W,
 }
 
@@ -138,7 +138,7 @@ impl Way for BySteps<'_> {
     }
 }
 
-impl<S: Shader, W: Way> Walked<'_, S, W> {
+impl<S: Shader, T: Plain, W: Way> Walked<S, T, W> {
     #[inline(always)]
     fn texel(&self, block: &W::Block, x: i32, y: i32) -> u16 {
         let texel = block.texel().or_else(|| self.way.texel(x, y));
@@ -146,7 +146,7 @@ impl<S: Shader, W: Way> Walked<'_, S, W> {
     }
 }
 
-impl<S: Shader, W: Way> Shader for Walked<'_, S, W> {
+impl<S: Shader, T: Plain, W: Way> Shader for Walked<S, T, W> {
     /// The inner shader's, the block and the place.
     type Pixel = (S::Pixel, W::Block, i32, i32);
     type Ramps = ();

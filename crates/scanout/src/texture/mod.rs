@@ -30,6 +30,7 @@ mod perspective;
 pub use across::Across;
 pub use along::{Along, Block};
 pub use palette::RepeatPalette;
+pub(crate) use perspective::Plain;
 pub use perspective::{
     General, Perspective, Repeat565, Sampler, TextureSetup, integer_q, reciprocal,
 };

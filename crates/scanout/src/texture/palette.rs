@@ -7,7 +7,7 @@
 //!
 //! A texel is its colour, as if the texture had been RGB565: every filter and every wrap mixes colours, never indices.
 
-use super::perspective::{Perspective, local, texel_of_repeat};
+use super::perspective::{Perspective, Plain, local, texel_of_repeat};
 use super::{Filter, Sampler, Texels, Texture, Wrap};
 use crate::output::widen565;
 use crate::setup::Triangle;
@@ -66,6 +66,24 @@ impl<'a> RepeatPalette<'a> {
         let size = [texture.width, texture.height].map(u64::from);
         plain.then_some(RepeatPalette { indices, palette, size, four_bits })
     }
+
+    #[inline(always)]
+    fn stored(&self, at: usize) -> u16 {
+        let index =
+            if self.four_bits { four_bits(self.indices, at) } else { eight_bits(self.indices, at) };
+        colour(self.palette, index)
+    }
+}
+
+impl Plain for RepeatPalette<'_> {
+    #[inline(always)]
+    fn size(&self) -> [u64; 2] {
+        self.size
+    }
+    #[inline(always)]
+    fn inside(&self, [x, y]: [u32; 2]) -> u16 {
+        self.stored(y as usize * self.size[0] as usize + x as usize)
+    }
 }
 
 impl Sampler for RepeatPalette<'_> {
@@ -83,10 +101,7 @@ impl Sampler for RepeatPalette<'_> {
     }
     #[inline(always)]
     fn texel565(&self, setup: &Perspective, st: [u32; 2], r: u64) -> u16 {
-        let at = texel_of_repeat(self.size, setup.shift, st, r);
-        let index =
-            if self.four_bits { four_bits(self.indices, at) } else { eight_bits(self.indices, at) };
-        colour(self.palette, index)
+        self.stored(texel_of_repeat(self.size, setup.shift, st, r))
     }
     #[inline(always)]
     fn texel(&self, setup: &Perspective, st: [u32; 2], _q: u32, r: u64) -> [u8; 3] {

@@ -192,6 +192,15 @@ pub trait Sampler: Copy {
     fn texel(&self, setup: &Self::Setup, st: [u32; 2], q: u32, r: u64) -> [u8; 3];
 }
 
+/// Nearest texels of a texture that repeats and has one level, stored as RGB565 or as indices of such colours: which texel a pixel has can be
+/// found in any way.
+pub(crate) trait Plain: Sampler<Setup = Perspective> {
+    /// Width and height.
+    fn size(&self) -> [u64; 2];
+    /// A texel inside the texture.
+    fn inside(&self, place: [u32; 2]) -> u16;
+}
+
 /// Any texture.
 #[derive(Clone, Copy, Debug)]
 pub struct General<'a>(pub &'a Texture<'a>);
@@ -260,12 +269,6 @@ impl<'a> Repeat565<'a> {
         ([z, q], Perspective { st: [s, t], shift })
     }
 
-    /// A texel inside the texture.
-    #[inline(always)]
-    pub(crate) fn inside(&self, [x, y]: [u32; 2]) -> u16 {
-        self.stored(y as usize * self.size[0] as usize + x as usize)
-    }
-
     /// The texel as it is stored, from the shifts of a [`Perspective`].
     #[inline(always)]
     pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
@@ -301,6 +304,17 @@ pub(super) fn column_and_row(size: [u64; 2], shift: [u32; 2], st: [u32; 2], r: u
         (if texel < size[i] { texel } else { texel % size[i] }) as usize
     };
     [axis(0), axis(1)]
+}
+
+impl Plain for Repeat565<'_> {
+    #[inline(always)]
+    fn size(&self) -> [u64; 2] {
+        self.size
+    }
+    #[inline(always)]
+    fn inside(&self, [x, y]: [u32; 2]) -> u16 {
+        self.stored(y as usize * self.size[0] as usize + x as usize)
+    }
 }
 
 impl Sampler for Repeat565<'_> {

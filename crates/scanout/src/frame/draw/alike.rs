@@ -21,7 +21,7 @@ use crate::output::PixelFormat;
 use crate::scene::Mode;
 use crate::setup::Triangle;
 use crate::shade::{Factors, Tables};
-use crate::texture::{Across, Repeat565};
+use crate::texture::{Across, Plain, Repeat565};
 use crate::transform::{Vertex, common_inverse_w};
 
 impl<'a> Frame<'a> {
@@ -91,7 +91,7 @@ impl<'a> Frame<'a> {
                     let rgb = primitive.rgb;
                     let (z, inner) = (v.map(|v| v.z), Tinted { rgb, tint: Factors::new(rgb) });
                     if target.walks() {
-                        return walk(target, t, &t.plane(z), inner, sampler, uv, q);
+                        return shortest(target, t, &t.plane(z), inner, sampler, uv, q);
                     }
                     let ([z, q], setup) = sampler.setup_with(t, z, uv, q);
                     target.fill(t, &z, &Textured { inner, sampler, setup, q });
@@ -101,7 +101,7 @@ impl<'a> Frame<'a> {
                 self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
                     let (z, inner) = shaded(t, v);
                     let (uv, q) = (uv(primitive.index as usize), q(v));
-                    walk(target, t, &z, inner, sampler, uv, q);
+                    shortest(target, t, &z, inner, sampler, uv, q);
                 });
             }
         }
@@ -180,21 +180,21 @@ impl<'a> Frame<'a> {
 
 /// Draws a textured triangle, by the way that is the shortest.
 #[inline(always)]
-fn walk<F: PixelFormat, S: Shader>(
+pub(super) fn shortest<F: PixelFormat, S: Shader, T: Plain>(
     target: &mut Target<F>,
     t: &Triangle,
     z: &Plane,
     inner: S,
-    sampler: Repeat565,
+    sampler: T,
     uv: [[i32; 2]; 3],
     q: [u32; 3],
 ) {
     if !target.walks() {
         return target.fill(t, z, &Textured::new(t, inner, sampler, uv, q));
     }
-    match &Across::new(t, uv, q, sampler.size.map(|size| size as u32)) {
+    match &Across::new(t, uv, q, sampler.size().map(|size| size as u32)) {
         Some(across) => {
-            let (size, rows) = (sampler.size, &OnceCell::new());
+            let (size, rows) = (sampler.size(), &OnceCell::new());
             let way = BySteps { across, triangle: t, uv, q, size, rows };
             target.fill(t, z, &Walked { inner, sampler, way });
         }
@@ -204,16 +204,16 @@ fn walk<F: PixelFormat, S: Shader>(
 
 /// Draws a textured triangle along its rows.
 #[inline(never)]
-pub(super) fn by_rows<F: PixelFormat, S: Shader>(
+pub(super) fn by_rows<F: PixelFormat, S: Shader, T: Plain>(
     target: &mut Target<F>,
     t: &Triangle,
     z: &Plane,
     inner: S,
-    sampler: Repeat565,
+    sampler: T,
     uv: [[i32; 2]; 3],
     q: [u32; 3],
 ) {
-    let way = ByRows::new(t, sampler.size, uv, q);
+    let way = ByRows::new(t, sampler.size(), uv, q);
     target.fill(t, z, &Walked { inner, sampler, way });
 }
 
