@@ -1,4 +1,4 @@
-//! Across a small triangle: texel coordinates by a quadratic where it is proven to give the definition's texel, and nowhere else.
+//! Across a small triangle: texel coordinates by a polynomial where it is proven to give the definition's texel, and nowhere else.
 //!
 //! With the corners' weights `l0 + l1 + l2 = 1` (linear on the screen), the middle `m` of the corners' 1/w, `u_i` the place of corner i
 //! in the texture less that of corner 0, and `b_i = q_i / m - 1`, a texel coordinate less corner 0's is, exactly,
@@ -12,11 +12,12 @@
 //! ```
 //!
 //! A small triangle's 1/w hardly changes, so `e` is far below a texel. Six gradients are all that is made for a triangle: no
-//! planes of 1/w, s/w, t/w, and no reciprocal a run. Multiplied out, G (1 - E + T^2 / 2) is a polynomial of second degree in columns X and
-//! rows Y from the pixel of corner 0, whose six coefficients cost nine products an axis; a row begins with two of its partial sums, and its
-//! pixels follow by second differences, which are exact. The value strays from the definition's by `e`, by what the definition rounds (2^-21 of s) and by what is rounded here; where no texel's border lies within
-//! that margin, the texel is the definition's. Elsewhere, two pixels in a hundred, `1 / (1 + E) = 1 - E + E^2 - E^3 + ...` leaves a margin a few times smaller, and
-//! where that doesn't decide either, the definition is computed.
+//! planes of 1/w, s/w, t/w, and no reciprocal a run. Multiplied out, G (1 - E + T^2 / 2) is a polynomial of second degree in
+//! columns X and rows Y from the pixel of corner 0, whose six coefficients cost nine products an axis; a row begins with two of
+//! its partial sums, and its pixels follow by second differences, which are exact. The value strays from the definition's by `e`,
+//! by what the definition rounds (2^-21 of s) and by what is rounded here; where no texel's border lies within that margin, the
+//! texel is the definition's. Elsewhere, one or two pixels in a hundred, `1 / (1 + E) = 1 - E + E^2 - E^3 + ...` leaves a margin
+//! a few times smaller, and where that doesn't decide either, the definition is computed.
 //!
 //! | value | format |
 //! |---|---|
@@ -25,8 +26,9 @@
 //! | G; its changes a sixteenth of a pixel | 20 fraction bits; the same integer is the change a pixel in 16 |
 //! | E; its changes a sixteenth of a pixel | 26 fraction bits; the same integer is the change a pixel in 22 |
 //!
-//! What it will not do: triangles beyond 32 pixels or 64 texels, with more than 16 texels a pixel or hardly any area, those that reach into
-//! the next repeat, and those whose 1/w changes by more than an eighth, or by a 32nd a pixel.
+//! What it will not do: triangles beyond 32 pixels or 64 texels, with more than 16 texels a pixel or hardly any area, those that
+//! reach into the next repeat, those whose 1/w changes by more than an eighth, or by a 32nd a pixel, and those whose texels a pixel
+//! times that change come to a quarter.
 
 use super::MAX_SIZE;
 use super::along::Block;
