@@ -123,7 +123,7 @@ impl Along {
         let mut length = LONGEST;
         let square = if p < 1 << 11 { p * p } else { u32::MAX };
         while length > 2
-            && (p * length > 1 << 13 || square as u64 * (length * length * length) as u64 > 3 << 27)
+            && (square as u64 * (length * length * length) as u64 > 3 << 27 || p * length > 1 << 13)
         {
             length -= length.div_ceil(8);
         }
