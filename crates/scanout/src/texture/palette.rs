@@ -66,13 +66,6 @@ impl<'a> RepeatPalette<'a> {
         let size = [texture.width, texture.height].map(u64::from);
         plain.then_some(RepeatPalette { indices, palette, size, four_bits })
     }
-
-    #[inline(always)]
-    fn stored(&self, at: usize) -> u16 {
-        let index =
-            if self.four_bits { four_bits(self.indices, at) } else { eight_bits(self.indices, at) };
-        colour(self.palette, index)
-    }
 }
 
 impl Plain for RepeatPalette<'_> {
@@ -81,8 +74,10 @@ impl Plain for RepeatPalette<'_> {
         self.size
     }
     #[inline(always)]
-    fn inside(&self, [x, y]: [u32; 2]) -> u16 {
-        self.stored(y as usize * self.size[0] as usize + x as usize)
+    fn stored(&self, at: usize) -> u16 {
+        let index =
+            if self.four_bits { four_bits(self.indices, at) } else { eight_bits(self.indices, at) };
+        colour(self.palette, index)
     }
 }
 

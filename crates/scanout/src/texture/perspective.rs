@@ -197,8 +197,13 @@ pub trait Sampler: Copy {
 pub(crate) trait Plain: Sampler<Setup = Perspective> {
     /// Width and height.
     fn size(&self) -> [u64; 2];
+    /// A texel by its number, rows from the top.
+    fn stored(&self, index: usize) -> u16;
     /// A texel inside the texture.
-    fn inside(&self, place: [u32; 2]) -> u16;
+    #[inline(always)]
+    fn inside(&self, [x, y]: [u32; 2]) -> u16 {
+        self.stored(y as usize * self.size()[0] as usize + x as usize)
+    }
 }
 
 /// Any texture.
@@ -274,17 +279,6 @@ impl<'a> Repeat565<'a> {
     pub(crate) fn at(&self, shift: [u32; 2], st: [u32; 2], r: u64) -> u16 {
         self.stored(texel_of_repeat(self.size, shift, st, r))
     }
-
-    #[inline(always)]
-    fn stored(&self, index: usize) -> u16 {
-        match self.texels.get(index) {
-            Some(&texel) => texel,
-            None => {
-                seldom();
-                0
-            }
-        }
-    }
 }
 
 /// Which texel a pixel has of a texture that repeats, from the shifts of a [`Perspective`].
@@ -312,8 +306,14 @@ impl Plain for Repeat565<'_> {
         self.size
     }
     #[inline(always)]
-    fn inside(&self, [x, y]: [u32; 2]) -> u16 {
-        self.stored(y as usize * self.size[0] as usize + x as usize)
+    fn stored(&self, index: usize) -> u16 {
+        match self.texels.get(index) {
+            Some(&texel) => texel,
+            None => {
+                seldom();
+                0
+            }
+        }
     }
 }
 
