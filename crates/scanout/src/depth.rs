@@ -13,16 +13,19 @@ pub const FAR: u16 = 0xffff;
 /// The largest depth of a vertex, U16.16: 65535.0.
 pub const MAX: u32 = 0xffff_0000;
 
+/// Half a step of a plane's value.
+pub(crate) const HALF: u32 = 0x8000;
+
 /// A plane's value (U16.16) rounded to nearest.
 #[inline(always)]
 pub fn round(value: u32) -> u16 {
-    (value.wrapping_add(0x8000) >> 16) as u16
+    (value.wrapping_add(HALF) >> 16) as u16
 }
 
 /// A depth plane with half a step added: [`whole`] of its values is [`round`] of the plane's.
 #[inline(always)]
 pub fn biased(z: &Plane) -> Plane {
-    Plane { c: z.c.wrapping_add(0x8000), ..*z }
+    Plane { c: z.c.wrapping_add(HALF), ..*z }
 }
 
 /// The whole steps of a [`biased`] plane's value.

@@ -45,6 +45,27 @@ impl Plane {
     }
 }
 
+/// A plane whose arithmetic is modulo 2^64.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WidePlane {
+    /// Value at pixel (0, 0).
+    pub c: u64,
+    /// Change from one column to the next.
+    pub gx: u64,
+    /// Change from one row to the next.
+    pub gy: u64,
+}
+
+impl WidePlane {
+    /// The value at pixel (x, y).
+    #[inline(always)]
+    pub(crate) fn at(&self, x: i32, y: i32) -> u64 {
+        self.c
+            .wrapping_add(self.gx.wrapping_mul(x as u64))
+            .wrapping_add(self.gy.wrapping_mul(y as u64))
+    }
+}
+
 /// A colour channel's plane value (U8.16) rounded to nearest: 0 - 255.
 #[inline(always)]
 pub fn channel(value: u32) -> u8 {

@@ -217,19 +217,26 @@ impl Triangle {
         if !self.small {
             return (values.map(|a| self.wide_plane(a)), false);
         }
+        let planes = self.exact_planes(values);
+        let fit = planes.iter().all(|&[_, gx, _]| gx == gx as i32 as i64);
+        (planes.map(|[c, gx, gy]| Plane { c: c as u32, gx: gx as u32, gy: gy as u32 }), fit)
+    }
+
+    /// `c`, `gx` and `gy` of the planes of a [`small`](Self::small) triangle before they are taken modulo 2^32; `c` modulo 2^60, and exact where the
+    /// area is at least 2^8.
+    #[inline(always)]
+    pub(crate) fn exact_planes<const N: usize>(&self, values: [[u32; 3]; N]) -> [[i64; 3]; N] {
         let ([d1, d2], [ox, oy]) = (self.wide_sides(), self.offset());
         let half = self.area >> 1;
-        let (mut planes, mut fit) = ([Plane::default(); N], true);
+        let mut planes = [[0; 3]; N];
         for (plane, a) in planes.iter_mut().zip(&values) {
             let (da1, da2) = (a[1] as i64 - a[0] as i64, a[2] as i64 - a[0] as i64);
             let gx = floor((da1 * d2[1] - da2 * d1[1]) * 16 + half, self.area);
             let gy = floor((d1[0] * da2 - d2[0] * da1) * 16 + half, self.area);
             let offset = gx.wrapping_mul(ox).wrapping_add(gy.wrapping_mul(oy));
-            *plane =
-                Plane { c: a[0].wrapping_add((offset >> 4) as u32), gx: gx as u32, gy: gy as u32 };
-            fit &= gx == gx as i32 as i64;
+            *plane = [(offset >> 4).wrapping_add(a[0] as i64), gx, gy];
         }
-        (planes, fit)
+        planes
     }
 
     /// The same for corners far outside the screen.

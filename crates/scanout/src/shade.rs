@@ -7,6 +7,7 @@
 //!
 //! Division by 255 is `(t + (t >> 8)) >> 8` with `t = n + 128`, exact for n up to 65025 = 255^2.
 
+use crate::math::{NARROW, high_product};
 use crate::scene::Fog;
 
 /// `n / 255` rounded to nearest, exact for 0 <= n <= 65025 = 255^2.
@@ -36,12 +37,14 @@ pub type Factors = InLanes;
 pub type Factors = ByChannels;
 
 /// A product a channel. `floor((a b + 127) / (255 2^(8 - bits)))`, the top five or six bits of `a b / 255` to nearest, is taken by the
-/// reciprocal 32897 = ceil(2^26 / 2040), which is exact for what is below 2^16.
+/// reciprocal 32897 = ceil(2^26 / 2040), which is exact for what is below 2^16. In place of 127 times that is added what a machine's instruction
+/// has room for: anything from 4,177,411 to 4,178,811 gives the same.
 #[derive(Clone, Copy, Debug)]
 pub struct ByChannels([u32; 3]);
 
 impl ByChannels {
     const RECIPROCAL: u32 = 32897;
+    const ROUND: u32 = 255 << 14;
 
     /// Of a colour.
     #[inline(always)]
@@ -56,7 +59,7 @@ impl Tint for ByChannels {
         let texel = texel as u32;
         let (r, g, b) = (texel >> 11, (texel >> 5) & 63, texel & 31);
         let top = |wide: u32, channel: usize, bits: u32| {
-            (wide * self.0[channel] + 127 * Self::RECIPROCAL) >> (31 - bits)
+            (wide * self.0[channel] + Self::ROUND) >> (31 - bits)
         };
         let r = top((r * 33) >> 2, 0, 5);
         let g = top((g * 65) >> 4, 1, 6);
@@ -65,64 +68,92 @@ impl Tint for ByChannels {
     }
 }
 
-/// All channels by one product, or three where the colour isn't grey, in lanes of 64 bits.
+/// A product a channel, in lanes of 64 bits.
 ///
 /// ```text
-/// bit   62             47    40             25    17              2
-///        [ red 8 + 8 bits ]   [ green        ]     [ blue         ]
+/// bit   63       56       48    40    32       24    16    8        0
+///        [ red 8 ]               [ green 8 ]         [ blue 8 ]        a texel's channels
+///                 [ red 16       ]     [ green 16     ] [ blue 16    ] times the colour's, the high half of the product
 /// ```
 ///
 /// A product with a sum of powers of two puts a copy of the texel at each lane; the powers are so far apart that copies of 16 bits don't
 /// touch. The last product gathers the lanes' top bits in the same way.
 #[derive(Clone, Copy, Debug)]
 pub struct InLanes {
-    /// The channel of least bits.
-    blue: u64,
-    /// What green has more than blue, and red more than green, modulo 2^64.
-    more: [u64; 2],
+    /// The channels times 2^56.
+    factors: [u64; 3],
 }
 
 impl InLanes {
-    /// A value in each lane.
+    /// The bits of a channel that a texel has, and those that are repeated below.
+    const TOP: u64 = InLanes::lanes(0xf8, 0xfc, 0xf8);
+    const AGAIN: u64 = InLanes::lanes(0x07, 0x03, 0x07);
+
+    /// A byte in each lane.
     const fn lanes(r: u64, g: u64, b: u64) -> u64 {
-        r << 47 | g << 25 | b << 2
+        r << 56 | g << 32 | b << 8
     }
 
     /// Of a colour.
     #[inline(always)]
     pub fn new(rgb: [u8; 3]) -> Self {
-        let [r, g, b] = rgb.map(u64::from);
-        InLanes { blue: b, more: [g.wrapping_sub(b), r.wrapping_sub(g)] }
+        InLanes { factors: rgb.map(|c| (c as u64) << 56) }
+    }
+
+    /// The texel's channels, widened.
+    #[inline(always)]
+    fn widen(texel: u16) -> u64 {
+        // Blue's lowest bit goes from 0 to 11, green's from 5 to 34, red's from 11 to 59; those that are repeated from 2, 9, 13 to 8, 32, 56.
+        let texel = texel as u64;
+        (texel * (1 << 11 | 1 << 29 | 1 << 48)) & InLanes::TOP
+            | (texel * (1 << 6 | 1 << 23 | 1 << 43)) & InLanes::AGAIN
+    }
+
+    /// Products divided by 255 as in [`div255`], 257 t / 2^16, and cut.
+    #[inline(always)]
+    fn gather(products: u64) -> u16 {
+        let t = products + (InLanes::lanes(128, 128, 128) >> 8);
+        let quotients = high_product(t, 257 << 48) & (InLanes::TOP >> 8);
+        (quotients.wrapping_mul(1 << 45 | 1 << 27 | 1 << 8) >> 48) as u16
     }
 }
 
 impl Tint for InLanes {
     #[inline(always)]
     fn tint(&self, texel: u16) -> u16 {
-        const TOP: u64 = InLanes::lanes(0xf8, 0xfc, 0xf8);
-        const AGAIN: u64 = InLanes::lanes(0x07, 0x03, 0x07);
-        const APART: u64 = 1 << 5 | 1 << 22 | 1 << 39;
-        // Blue's lowest bit goes from 0 to 5, green's from 5 to 27, red's from 11 to 50; those that are repeated from 2, 9, 13 to 2, 25, 47.
-        let texel = texel as u64;
-        let wide = (texel * APART) & TOP | (texel * (1 | 1 << 16 | 1 << 34)) & AGAIN;
-        let mut product = wide.wrapping_mul(self.blue);
-        let [green, red] = self.more;
-        if green | red != 0 {
-            let both = (wide & InLanes::lanes(255, 255, 0)).wrapping_mul(green);
-            let one = (wide & InLanes::lanes(255, 0, 0)).wrapping_mul(red);
-            product = product.wrapping_add(both).wrapping_add(one);
-        }
-        // Each lane divided by 255 as in `div255`.
-        let t = product.wrapping_add(InLanes::lanes(128, 128, 128));
-        let t = t.wrapping_add((t >> 8) & InLanes::lanes(255, 255, 255));
-        (((t >> 8) & TOP).wrapping_mul(APART) >> 44) as u16
+        let wide = InLanes::widen(texel);
+        let lane = |i: usize, mask| high_product(wide & mask, self.factors[i]);
+        let (r, g) = (InLanes::lanes(255, 0, 0), InLanes::lanes(0, 255, 0));
+        InLanes::gather(lane(0, r) | lane(1, g) | lane(2, InLanes::lanes(0, 0, 255)))
+    }
+}
+
+/// A grey, which multiplies all of [`InLanes`]' lanes by one product.
+#[derive(Clone, Copy, Debug)]
+pub struct Grey(u64);
+
+impl Grey {
+    /// Of a colour that is one.
+    #[inline(always)]
+    pub fn new([r, g, b]: [u8; 3]) -> Option<Grey> {
+        (r == g && g == b).then_some(Grey((r as u64) << 56))
+    }
+}
+
+impl Tint for Grey {
+    #[inline(always)]
+    fn tint(&self, texel: u16) -> u16 {
+        InLanes::gather(high_product(InLanes::widen(texel), self.0))
     }
 }
 
 /// An RGB565 texel times a colour.
 #[inline(always)]
 pub fn modulate565(texel: u16, rgb: [u8; 3]) -> u16 {
-    Factors::new(rgb).tint(texel)
+    match Grey::new(rgb) {
+        Some(grey) if !NARROW => grey.tint(texel),
+        _ => Factors::new(rgb).tint(texel),
+    }
 }
 
 /// A table a channel, 256 bytes: for one colour and many texels.
@@ -240,6 +271,9 @@ mod tests {
             let expected = Rgb565::encode(modulate(widen565(texel), rgb));
             assert_eq!(ByChannels::new(rgb).tint(texel), expected, "{texel:#x} {rgb:?}");
             assert_eq!(InLanes::new(rgb).tint(texel), expected, "{texel:#x} {rgb:?}");
+            let grey = Grey::new(rgb);
+            assert!(grey.is_none_or(|grey| grey.tint(texel) == expected), "{texel:#x} {rgb:?}");
+            assert_eq!(grey.is_some(), rgb == [rgb[0]; 3]);
         };
         for c in 0..=255 {
             for texel in (0..32).map(|v| v << 11 | v).chain((0..64).map(|v| v << 5)) {

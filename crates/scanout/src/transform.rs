@@ -23,7 +23,7 @@
 //! Error of a screen position of a vertex inside the view volume: 1/32 pixel (rounding) and 2^-28 of w. What it will not do:
 //! positions wider than 16 bits (split the mesh).
 
-use crate::math::{Mat4, NARROW, leading_zeros, mixed_product, recip32};
+use crate::math::{Mat4, NARROW, leading_zeros, mixed_product, recip32, seldom};
 
 /// The vertex lies before the near plane (or has no positive w).
 pub const NEAR: u8 = 1 << 5;
@@ -285,7 +285,21 @@ impl Viewport {
 #[inline]
 pub fn common_inverse_w(v: [&Vertex; 3]) -> ([u32; 3], u32) {
     let exponent = v[0].exponent().max(v[1].exponent()).max(v[2].exponent());
-    (v.map(|v| v.inv_w.checked_shr(9 + exponent - v.exponent()).unwrap_or(0).max(1)), exponent)
+    let shift = |v: &Vertex| {
+        let drop = 9 + exponent - v.exponent();
+        // By the shift that the machine has.
+        let q = if NARROW {
+            v.inv_w.checked_shr(drop).unwrap_or(0)
+        } else {
+            (v.inv_w as u64 >> drop) as u32
+        };
+        if q == 0 {
+            seldom();
+            return 1;
+        }
+        q
+    };
+    (v.map(shift), exponent)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::Traversal;
 use super::fragment::Shader;
-use crate::avx2::{Avx2, EIGHT, Pixels, Plain, STRIP};
+use crate::avx2::{self, Avx2, EIGHT, Pixels, STRIP};
 use crate::depth;
 use crate::features;
 use crate::interpolate::Plane;
@@ -18,6 +18,7 @@ use crate::raster::triangle::{Run, Runs, tiles};
 use crate::scene::Background;
 use crate::setup::{Edge, Triangle};
 use crate::shade::blend;
+use crate::texture::{Packed, Repeat565};
 use crate::transform::Vertex;
 
 /// Pixels of a triangle's box, as far as it is drawn, that are worth tables for its tint.
@@ -167,6 +168,14 @@ impl<F: PixelFormat> Target<'_, F> {
         NARROW || self.by_tiles()
     }
 
+    /// Whether textured pixels are drawn one after another on a machine with long products.
+    #[inline(always)]
+    pub(super) fn packs(&self) -> bool {
+        let by_pixels = !lanes::AVAILABLE || self.traversal == Traversal::Pixels;
+        let other = NARROW || self.by_tiles() || (features::DITHER && self.dither);
+        by_pixels && !other
+    }
+
     /// Whether a triangle's pixels, drawn one after another here, are enough to make tables for their tint.
     #[inline(always)]
     pub(super) fn tabled(&self, t: &Triangle) -> bool {
@@ -284,6 +293,30 @@ impl<F: PixelFormat> Target<'_, F> {
         );
     }
 
+    /// A textured triangle's fragments one after another.
+    #[inline(never)]
+    pub(super) fn fill_packed<S: Shader>(
+        &mut self,
+        t: &Triangle,
+        packed: &Packed,
+        inner: &S,
+        sampler: &Repeat565,
+    ) {
+        let columns = 0..self.width as i32;
+        self.runs(t, columns).for_each(|Run { y, x0, x1 }| {
+            let (first, row) = (x0 as i32, y as i32);
+            F::walk(
+                self.colour,
+                self.depth,
+                (self.width, y - self.rows.start as usize, x0..x1),
+                (packed.at(first, row), inner.at(first, row)),
+                |(pixel, _), stored| depth::test(stored, pixel.depth()),
+                |(pixel, colour), _| inner.tint::<F>(colour, packed.texel(sampler, pixel)),
+                |(pixel, colour)| (packed.step(pixel), inner.step(colour, 1)),
+            );
+        });
+    }
+
     /// A tiny triangle in strips of eight columns, RGB565 only: no spans, edges are tested at every pixel.
     #[inline(never)]
     fn fill_strips<S: Shader>(&mut self, t: &Triangle, z: &Plane, shader: &S) {
@@ -394,8 +427,11 @@ impl<F: PixelFormat> Target<'_, F> {
             let (rows, top, value) = (rows.len(), rows.start, Rgb565::encode(rgb));
             for group in groups {
                 let Some(cells) = F::rgb565(self.colour) else { return false };
-                let done =
-                    avx2.lines(group, vertices, &mut Plain { cells, width, rows, top, value });
+                let done = avx2.lines(
+                    group,
+                    vertices,
+                    &mut avx2::Plain { cells, width, rows, top, value },
+                );
                 let mut left = !done & 0xff;
                 while left != 0 {
                     let edge = &group[left.trailing_zeros() as usize % EIGHT];

@@ -141,8 +141,16 @@ impl Way for BySteps<'_> {
 impl<S: Shader, T: Plain, W: Way> Walked<S, T, W> {
     #[inline(always)]
     fn texel(&self, block: &W::Block, x: i32, y: i32) -> u16 {
-        let texel = block.texel().or_else(|| self.way.texel(x, y));
-        self.sampler.inside(texel.unwrap_or_default())
+        match block.texel() {
+            Some(texel) => self.sampler.inside(texel),
+            None => self.uncertain(x, y),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn uncertain(&self, x: i32, y: i32) -> u16 {
+        self.sampler.inside(self.way.texel(x, y).unwrap_or_default())
     }
 }
 

@@ -51,12 +51,41 @@ pub mod tables {
 
 pub(crate) use fixed::{add_product, div_by_large, div_nearest, q32_from_f64};
 pub(crate) use fixed::{saturate32, saturate64, shift_right_nearest};
-pub(crate) use product::mixed_product;
+pub(crate) use product::{high_product, mixed_product};
 
 /// Tells the compiler which way of two is the rarer one.
 #[cold]
 #[inline(always)]
 pub(crate) fn seldom() {}
+
+/// Registers are so few that a branch in a loop moves others about.
+const FEW_REGISTERS: bool = cfg!(target_arch = "arm");
+
+/// The larger one, `v` as a rule.
+#[inline(always)]
+pub(crate) fn at_least<T: Ord + Copy>(v: T, least: T) -> T {
+    if FEW_REGISTERS {
+        return v.max(least);
+    }
+    if v < least {
+        seldom();
+        return least;
+    }
+    v
+}
+
+/// The smaller one, `v` as a rule.
+#[inline(always)]
+pub(crate) fn at_most<T: Ord + Copy>(v: T, most: T) -> T {
+    if FEW_REGISTERS {
+        return v.min(most);
+    }
+    if v > most {
+        seldom();
+        return most;
+    }
+    v
+}
 
 #[cfg(test)]
 pub(crate) mod testing {

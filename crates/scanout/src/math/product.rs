@@ -1,4 +1,4 @@
-//! Products of 32 x 32 bits: 64 bits, for machines whose own product has 32.
+//! Products of 32 x 32 bits: 64 bits, for machines whose own product has 32; upper halves of those of 64 x 64 bits.
 
 use super::NO_DIVISION;
 
@@ -17,6 +17,12 @@ pub(crate) const fn mixed_product(a: i32, b: u32) -> i64 {
     }
     let over = (a >> 31) as u32 & b;
     (by_halves(a as u32, b) as i64).wrapping_sub((over as i64) << 32)
+}
+
+/// The upper half of a product of 64 x 64 bits: one instruction where registers have 64.
+#[inline(always)]
+pub(crate) const fn high_product(a: u64, b: u64) -> u64 {
+    ((a as u128 * b as u128) >> 64) as u64
 }
 
 /// By four products of 16 x 16 bits.

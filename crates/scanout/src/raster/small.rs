@@ -7,7 +7,7 @@
 use core::ops::Range;
 
 use super::triangle::Run;
-use crate::math::quotient;
+use crate::math::{at_least, at_most, quotient};
 use crate::setup::{Triangle, first_pixel};
 
 /// The widest and highest box, 1/16 pixel.
@@ -49,7 +49,7 @@ pub fn for_each(t: &Triangle, rows: Range<i32>, columns: Range<i32>, mut draw: i
         for y in top..below {
             let [x0, x1] = sides.map(|side| side.x >> FRACTION);
             sides = sides.map(|side| Side { x: side.x.wrapping_add(side.step), ..side });
-            let (x0, x1) = (x0.max(first), x1.min(end));
+            let (x0, x1) = (at_least(x0, first), at_most(x1, end));
             if x0 < x1 {
                 draw(Run { y: y as usize, x0: (base + x0) as usize, x1: (base + x1) as usize });
             }

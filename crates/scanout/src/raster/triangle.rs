@@ -17,7 +17,7 @@
 //! Cost of a row: two additions and two comparisons; at most three divisions a triangle.
 
 use crate::features;
-use crate::math::{NO_DIVISION, floor};
+use crate::math::{NO_DIVISION, at_least, at_most, floor};
 use crate::setup::{Triangle, first_pixel};
 use core::ops::Range;
 
@@ -248,8 +248,8 @@ impl<'t> Runs<'t> {
                 let [mut left, mut right] =
                     if self.long_left { [long, short] } else { [short, long] };
                 for y in self.rows[slab & 1]..self.rows[(slab & 1) + 1] {
-                    let x0 = ((left.x >> 32) as isize).max(first);
-                    let x1 = ((right.x >> 32) as isize).min(end);
+                    let x0 = at_least((left.x >> 32) as isize, first);
+                    let x1 = at_most((right.x >> 32) as isize, end);
                     (left.x, right.x) = (left.x + left.step, right.x + right.step);
                     if x0 < x1 {
                         draw(Run { y, x0: x0 as usize, x1: x1 as usize });

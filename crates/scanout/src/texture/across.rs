@@ -64,7 +64,7 @@ pub struct Across {
     from: [i32; 2],
     /// The coordinates less the margin, from there on.
     way: [Polynomial; 2],
-    /// A texel is certain where both fractions lie below: 1 less twice the margin.
+    /// [`Block::limit`].
     limit: u32,
     detail: Detail,
 }
@@ -157,7 +157,7 @@ impl Across {
         let mut across = Across {
             from: t.corners[0].map(|v| v >> 4),
             way: [Polynomial::default(); 2],
-            limit: (1 << FRACTION) - ((2 * margin) << (FRACTION - 16)),
+            limit: Block::<FRACTION>::limit(margin << (FRACTION - 16)),
             detail: Detail { corner, at, slopes, bend, half, margin: closer },
         };
         // From corner 0 to the centre of its pixel.
@@ -214,7 +214,7 @@ impl Across {
             let u = (g >> 4) - (((g >> 10) * bent) >> 12);
             at[axis].wrapping_sub(margin).wrapping_add(u as u32)
         });
-        Block::<16> { at, limit: (1 << 16) - 2 * margin, ..Block::NONE }.texel()
+        Block::<16> { at, limit: Block::<16>::limit(margin), ..Block::NONE }.texel()
     }
 }
 
@@ -313,7 +313,7 @@ mod tests {
             let across = Across::new(&t, uv, q, sides);
             taken[across.is_some() as usize] += 1;
             let Some(across) = across else { continue };
-            let margin = (1 << 21) - across.limit / 2;
+            let margin = across.limit.wrapping_neg() >> 11;
             let typical = (case % 5 != 0) as u32;
             let in_depth = typical * (depth == 1 << 20) as u32;
             let (setup, _) = sampler.setup_and_fit(&t, uv, q);

@@ -64,7 +64,8 @@ pub struct Block<const FRACTION: u32> {
     pub(super) at: [u32; 2],
     pub(super) step: [u32; 2],
     pub(super) bend: [u32; 2],
-    /// A texel is certain where both fractions lie below: 1 less twice the margin.
+    /// A texel is certain where both fractions, in the uppermost bits, lie below: 1 less twice the margin. (A shift needs no mask in a
+    /// register.)
     pub(super) limit: u32,
 }
 
@@ -74,13 +75,19 @@ impl Block<FRACTION> {
     pub fn one(perspective: &Perspective, size: [u64; 2], q: u32, st: [u32; 2]) -> Self {
         let r = reciprocal(integer_q(q));
         let texel = column_and_row(size, perspective.shift, st, r);
-        Block { at: texel.map(|v| (v as u32) << FRACTION), limit: 1 << FRACTION, ..Block::NONE }
+        Block { at: texel.map(|v| (v as u32) << FRACTION), limit: u32::MAX, ..Block::NONE }
     }
 }
 
 impl<const FRACTION: u32> Block<FRACTION> {
     /// Nothing is certain.
     pub(super) const NONE: Self = Block { at: [0; 2], step: [0; 2], bend: [0; 2], limit: 0 };
+
+    /// Below which fractions are certain with a margin in units of a coordinate, which isn't 0.
+    #[inline(always)]
+    pub(super) const fn limit(margin: u32) -> u32 {
+        (margin << (33 - FRACTION)).wrapping_neg()
+    }
 
     /// To the next pixel.
     #[inline(always)]
@@ -95,8 +102,8 @@ impl<const FRACTION: u32> Block<FRACTION> {
     #[inline(always)]
     pub fn texel(&self) -> Option<[u32; 2]> {
         let [s, t] = self.at;
-        let fraction = (1 << FRACTION) - 1;
-        (s & fraction < self.limit && t & fraction < self.limit)
+        let whole = 32 - FRACTION;
+        (s << whole < self.limit && t << whole < self.limit)
             .then_some([s >> FRACTION, t >> FRACTION])
     }
 }
@@ -197,7 +204,7 @@ impl Along {
         }
         let [s, t] = block.at;
         let at = [s.wrapping_sub(margin), t.wrapping_sub(margin)];
-        Block { at, limit: (1 << FRACTION) - 2 * margin, ..block }
+        Block { at, limit: Block::<FRACTION>::limit(margin), ..block }
     }
 }
 

@@ -24,11 +24,13 @@
 
 mod across;
 mod along;
+mod packed;
 mod palette;
 mod perspective;
 
 pub use across::Across;
 pub use along::{Along, Block};
+pub(crate) use packed::Packed;
 pub use palette::RepeatPalette;
 pub(crate) use perspective::Plain;
 pub use perspective::{

@@ -80,18 +80,36 @@ pub fn integer_q(plane_value: u32) -> u32 {
     q
 }
 
+/// [`local`] for one coordinate.
+#[inline(always)]
+fn local_axis([a, b, c]: [i32; 3], size: u32) -> ([u64; 3], i32) {
+    let repeats = a.min(b).min(c) >> 16;
+    let distance = |u: i32| {
+        let u = u as i64 - ((repeats as i64) << 16);
+        ((u * size as i64 + 8) >> (16 - SUBTEXEL_BITS)) as u64
+    };
+    ([distance(a), distance(b), distance(c)], repeats)
+}
+
 /// Distances in a texture of `size` from the whole repeats below the least texture coordinate, 1/4096 texel rounded to
 /// nearest, [0, 2^38); and those repeats.
 #[inline(always)]
 pub(super) fn local(uv: [[i32; 2]; 3], size: [u32; 2]) -> ([[u64; 3]; 2], [i32; 2]) {
-    let repeats = [0, 1].map(|axis: usize| uv[0][axis].min(uv[1][axis]).min(uv[2][axis]) >> 16);
-    let local = [0, 1].map(|axis: usize| {
-        uv.map(|uv| {
-            let u = uv[axis] as i64 - ((repeats[axis] as i64) << 16);
-            ((u * size[axis] as i64 + 8) >> (16 - SUBTEXEL_BITS)) as u64
-        })
-    });
-    (local, repeats)
+    let [[a, d], [b, e], [c, f]] = uv;
+    let ((s, s_repeats), (t, t_repeats)) =
+        (local_axis([a, b, c], size[0]), local_axis([d, e, f], size[1]));
+    ([s, t], [s_repeats, t_repeats])
+}
+
+/// The values of a coordinate's plane, and its shift.
+#[inline(always)]
+fn over_w(local: &[u64; 3], q: [u32; 3]) -> ([u32; 3], u32) {
+    let [a, b, c] = [local[0] * q[0] as u64, local[1] * q[1] as u64, local[2] * q[2] as u64];
+    // The largest has the leading one of all of them together.
+    let over = ((a | b | c) >> 31) as u32;
+    let drop = if over == 0 { 0 } else { 32 - leading_zeros(over) };
+    let round = |p: u64| ((p + ((1 << drop) >> 1)) >> drop) as u32;
+    ([round(a), round(b), round(c)], 47 - drop)
 }
 
 impl Perspective {
@@ -105,17 +123,10 @@ impl Perspective {
 
     /// What the planes go through, and the shifts.
     #[inline(always)]
-    fn values(local: &[[u64; 3]; 2], q: [u32; 3]) -> ([[u32; 3]; 2], [u32; 2]) {
-        let mut shift = [0; 2];
-        let values = [0, 1].map(|axis: usize| {
-            let products = [0, 1, 2].map(|i: usize| local[axis][i] * q[i] as u64);
-            // The largest has the leading one of all of them together.
-            let over = ((products[0] | products[1] | products[2]) >> 31) as u32;
-            let drop = if over == 0 { 0 } else { 32 - leading_zeros(over) };
-            shift[axis] = 47 - drop;
-            products.map(|p| ((p + ((1 << drop) >> 1)) >> drop) as u32)
-        });
-        (values, shift)
+    pub(super) fn values(local: &[[u64; 3]; 2], q: [u32; 3]) -> ([[u32; 3]; 2], [u32; 2]) {
+        let [s, t] = local;
+        let ((s, s_shift), (t, t_shift)) = (over_w(s, q), over_w(t, q));
+        ([s, t], [s_shift, t_shift])
     }
 
     /// Of a texture of `size` that repeats, with the plane of 1/w, and whether all changes a column fit 32 bits.
@@ -242,6 +253,8 @@ impl<'a> Repeat565<'a> {
             && texture.levels == 1
             && texture.wrap == [Wrap::Repeat; 2];
         let size = [texture.width, texture.height].map(u64::from);
+        // None beyond the last row.
+        let texels = &texels[..texels.len().min(texture.level_offset(1))];
         plain.then_some(Repeat565 { texels, size })
     }
 

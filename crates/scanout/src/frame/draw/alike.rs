@@ -4,6 +4,7 @@
 //! | way | where |
 //! |---|---|
 //! | eight at a time | AVX2, RGB565 |
+//! | textured, in registers of 64 bits | RV64 and its like, `Traversal::Pixels`: `texture/packed.rs` |
 //! | one by one | elsewhere; formats as in [`setup`](crate::setup) and [`interpolate`](crate::interpolate) |
 
 use core::cell::OnceCell;
@@ -16,12 +17,13 @@ use crate::avx2::{EIGHT, Source, Triangles};
 use crate::features;
 use crate::interpolate::Plane;
 use crate::light::Lighting;
+use crate::math::NARROW;
 use crate::mesh::Normals;
 use crate::output::PixelFormat;
 use crate::scene::Mode;
 use crate::setup::Triangle;
-use crate::shade::{Factors, Tables};
-use crate::texture::{Across, Plain, Repeat565};
+use crate::shade::{Factors, Grey, Tables};
+use crate::texture::{Across, Packed, Plain, Repeat565};
 use crate::transform::{Vertex, common_inverse_w};
 
 impl<'a> Frame<'a> {
@@ -65,8 +67,12 @@ impl<'a> Frame<'a> {
         target: &mut Target<F>,
     ) {
         let uv = |index: usize| -> [[i32; 2]; 3] {
-            let corners = source.uv_triangles.get(index).copied().unwrap_or_default();
-            corners.map(|i| source.uvs.get(i as usize).copied().unwrap_or_default())
+            let Some([i, j, k]) = source.uv_triangles.get(index) else { return [[0; 2]; 3] };
+            let at = |&i: &u16| match source.uvs.get(i as usize) {
+                Some(&[u, v]) => [u, v],
+                None => [0, 0],
+            };
+            [at(i), at(j), at(k)]
         };
         let q = |v: &[&Vertex; 3]| common_inverse_w(*v).0;
         match (features::GOURAUD && source.gouraud, source.texture) {
@@ -85,11 +91,23 @@ impl<'a> Frame<'a> {
             (false, Some(sampler)) => {
                 self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
                     let (uv, q) = (uv(primitive.index as usize), q(v));
-                    if target.tabled(t) {
-                        return draw_tabled(target, t, v, primitive.rgb, sampler, uv, q);
+                    let (z, rgb) = (v.map(|v| v.z), primitive.rgb);
+                    let (tabled, grey) = (target.tabled(t), Grey::new(rgb));
+                    if target.packs()
+                        && (tabled || grey.is_some())
+                        && let Some(packed) = Packed::new(t, z, uv, q, sampler.size)
+                    {
+                        return match grey {
+                            Some(tint) if !tabled => {
+                                target.fill_packed(t, &packed, &Tinted { rgb, tint }, &sampler)
+                            }
+                            _ => fill_tabled(target, t, &packed, rgb, &sampler),
+                        };
                     }
-                    let rgb = primitive.rgb;
-                    let (z, inner) = (v.map(|v| v.z), Tinted { rgb, tint: Factors::new(rgb) });
+                    if NARROW && tabled {
+                        return draw_tabled(target, t, &t.plane(z), rgb, sampler, uv, q);
+                    }
+                    let inner = Tinted { rgb, tint: Factors::new(rgb) };
                     if target.walks() {
                         return shortest(target, t, &t.plane(z), inner, sampler, uv, q);
                     }
@@ -101,6 +119,11 @@ impl<'a> Frame<'a> {
                 self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
                     let (z, inner) = shaded(t, v);
                     let (uv, q) = (uv(primitive.index as usize), q(v));
+                    if target.packs()
+                        && let Some(packed) = Packed::new(t, v.map(|v| v.z), uv, q, sampler.size)
+                    {
+                        return target.fill_packed(t, &packed, &inner, &sampler);
+                    }
                     shortest(target, t, &z, inner, sampler, uv, q);
                 });
             }
@@ -119,10 +142,13 @@ impl<'a> Frame<'a> {
     ) {
         let rows = target.rows.clone();
         for primitive in run.iter().filter(|p| p.touches(&rows)) {
-            let indices = source.triangles.get(primitive.index as usize);
-            let corner = |k: usize| source.vertices.get(indices?[k] as usize);
             if source.is_plain(primitive.tag)
-                && let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2))
+                && let Some(corners) = source.triangles.get(primitive.index as usize)
+                && let (Some(a), Some(b), Some(c)) = (
+                    source.vertices.get(corners[0] as usize),
+                    source.vertices.get(corners[1] as usize),
+                    source.vertices.get(corners[2] as usize),
+                )
             {
                 if let Some(t) = Triangle::new([[a.x, a.y], [b.x, b.y], [c.x, c.y]]) {
                     draw(target, &t, &[a, b, c], primitive);
@@ -217,24 +243,30 @@ pub(super) fn by_rows<F: PixelFormat, S: Shader, T: Plain>(
     target.fill(t, z, &Walked { inner, sampler, way });
 }
 
-/// Draws a textured triangle of one colour and many pixels.
+/// Draws a textured triangle of one colour and many pixels along its rows.
 #[inline(never)]
 fn draw_tabled<F: PixelFormat>(
     target: &mut Target<F>,
     t: &Triangle,
-    v: &[&Vertex; 3],
+    z: &Plane,
     rgb: [u8; 3],
     sampler: Repeat565,
     uv: [[i32; 2]; 3],
     q: [u32; 3],
 ) {
-    let (z, inner) = (v.map(|v| v.z), Tinted { rgb, tint: Tables::new(rgb) });
-    if target.walks() {
-        by_rows(target, t, &t.plane(z), inner, sampler, uv, q);
-    } else {
-        let ([z, q], setup) = sampler.setup_with(t, z, uv, q);
-        target.fill(t, &z, &Textured { inner, sampler, setup, q });
-    }
+    by_rows(target, t, z, Tinted { rgb, tint: Tables::new(rgb) }, sampler, uv, q);
+}
+
+/// The same where long products are had.
+#[inline(never)]
+fn fill_tabled<F: PixelFormat>(
+    target: &mut Target<F>,
+    t: &Triangle,
+    packed: &Packed,
+    rgb: [u8; 3],
+    sampler: &Repeat565,
+) {
+    target.fill_packed(t, packed, &Tinted { rgb, tint: Tables::new(rgb) }, sampler);
 }
 
 /// Depth and colours through three vertices.
