@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares scanout's marker detector with OpenCV's and AprilTag's on drawn pictures with known poses.
 
-    judge.py --detect PROGRAM [--frames N] [--all-photographs] [--check]
+    judge.py --detect PROGRAM [--frames N] [--repeats N] [--all-photographs] [--check [--time RATIO]]
 
 PROGRAM is the built example `detect` of scanout-ar. With --check, exit code 1 when scanout misses a target.
 """
@@ -53,9 +53,11 @@ def main():
     parser.add_argument("--detect", required=True, help="the built example `detect`")
     parser.add_argument("--dictionary", default="apriltag36h11")
     parser.add_argument("--frames", type=int, default=20, help="pictures of each condition")
+    parser.add_argument("--repeats", type=int, default=3, help="times each detector sees a picture; its least time counts")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", help="folder for pictures in which scanout missed what others found")
     parser.add_argument("--all-photographs", action="store_true", help="Debian's wallpapers too")
+    parser.add_argument("--time", type=float, default=0.10, help="the most of AprilTag's time that --check lets pass")
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
     names = {"apriltag36h11": cv2.aruco.DICT_APRILTAG_36h11, "aruco4x4_50": cv2.aruco.DICT_4X4_50,
@@ -77,6 +79,8 @@ def main():
             hits = {}
             for detector in all_detectors:
                 found, ms = detector(picture)
+                # The least of some: what other programs on the machine take from the caches isn't the detector's.
+                ms = min([ms] + [detector(picture)[1] for _ in range(arguments.repeats - 1)])
                 pairs, false = match(found, markers, camera)
                 hits[detector.name] = pairs
                 for key in (condition, "together"):
@@ -109,10 +113,10 @@ def main():
             print(f"  {detector.name:28} recall {100 * row['found'] / max(1, row['all']):5.1f} %  corners {corner:6.3f} px  "
                   f"rotation {rotation:6.3f} deg  {numpy.median(row['ms']):6.2f} ms  false {row['false']}")
     if arguments.check:
-        return check(table, all_detectors)
+        return check(table, all_detectors, arguments.time)
 
 
-def check(table, all_detectors):
+def check(table, all_detectors, time):
     """The targets, over all conditions together."""
     ours, others = table["scanout", "together"], [table[d.name, "together"] for d in all_detectors[:-1]]
     recall = lambda row: 100 * row["found"] / row["all"]
@@ -124,7 +128,7 @@ def check(table, all_detectors):
         ("false markers", ours["false"], "<=", 0),
     ]
     if tag:
-        wanted.append(("time / AprilTag's", numpy.median(ours["ms"]) / numpy.median(tag["ms"]), "<=", 0.10))
+        wanted.append(("time / AprilTag's", numpy.median(ours["ms"]) / numpy.median(tag["ms"]), "<=", time))
     bad = 0
     print()
     for what, got, how, target in wanted:

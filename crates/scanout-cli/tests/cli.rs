@@ -512,10 +512,18 @@ fn in_terminal(line: &str, variable: (&str, &str)) -> Option<String> {
 fn a_plain_terminal_is_sent_no_control_sequences() {
     let line = format!("render {} --resolution 80,60", model("teapot.obj"));
     for variable in [("NO_COLOR", "1"), ("TERM", "dumb")] {
-        let start = std::time::Instant::now();
-        let Some(told) = in_terminal(&line, variable) else { return };
-        assert!(told.contains('#') && !told.contains('\x1b'), "{told:?}");
-        assert!(start.elapsed().as_millis() < 900, "it waited for an answer");
+        // The quickest of a few: other programs may keep the machine busy, an answer that never comes makes each slow.
+        let mut quickest = u128::MAX;
+        for _ in 0..5 {
+            let start = std::time::Instant::now();
+            let Some(told) = in_terminal(&line, variable) else { return };
+            assert!(told.contains('#') && !told.contains('\x1b'), "{told:?}");
+            quickest = quickest.min(start.elapsed().as_millis());
+            if quickest < 900 {
+                break;
+            }
+        }
+        assert!(quickest < 900, "it waited for an answer");
     }
     let turn = format!(
         "turntable {} --frames 3 --resolution 40,30 -o {}",
