@@ -133,6 +133,20 @@ impl Triangle {
         [0, 1].map(|i: usize| first_pixel(a[i].max(b[i]).max(c[i])))
     }
 
+    /// What planes that must not fall below 0 are lifted by: no less than their rounding can take away at a covered pixel.
+    ///
+    /// Gradients err by half a unit a column and a row, from corner 0 on, and `c` by less than one: together by at most half the sum of the
+    /// sides' reach in x and in y, and one. Beyond [`small`](Self::small), 2^11 for what is left of `e` bits and half the frame's width and height.
+    #[inline(always)]
+    pub(crate) fn lift(&self) -> u32 {
+        if !self.small {
+            return 1 << 13;
+        }
+        let [d1, d2] = self.sides();
+        let reach = |i: usize| d1[i].unsigned_abs() | d2[i].unsigned_abs();
+        ((reach(0) + reach(1)) >> 5) + 2
+    }
+
     /// The largest size of a coordinate.
     fn reach(&self) -> i32 {
         self.corners.as_flattened().iter().fold(0, |most, v| most.max(v.abs()))

@@ -156,12 +156,12 @@ pub fn modulate565(texel: u16, rgb: [u8; 3]) -> u16 {
     }
 }
 
-/// A table a channel, 256 bytes: for one colour and many texels.
+/// A table a channel, 224 bytes: for one colour and many texels.
 #[derive(Clone, Copy, Debug)]
 pub struct Tables {
     red: [u16; 32],
     green: [u16; 64],
-    blue: [u16; 32],
+    blue: [u8; 32],
 }
 
 impl Tables {
@@ -172,7 +172,7 @@ impl Tables {
         let mut tables = Tables { red: [0; 32], green: [0; 64], blue: [0; 32] };
         for (i, (red, blue)) in (0..).zip(tables.red.iter_mut().zip(&mut tables.blue)) {
             *red = factors.tint(i << 11);
-            *blue = factors.tint(i);
+            *blue = factors.tint(i) as u8;
         }
         for (i, green) in (0..).zip(&mut tables.green) {
             *green = factors.tint(i << 5);
@@ -185,7 +185,7 @@ impl Tint for Tables {
     #[inline(always)]
     fn tint(&self, texel: u16) -> u16 {
         let [r, g, b] = [texel >> 11, (texel >> 5) & 63, texel & 31].map(usize::from);
-        self.red[r] | self.green[g] | self.blue[b]
+        self.red[r] | self.green[g] | u16::from(self.blue[b])
     }
 }
 

@@ -47,6 +47,8 @@ struct Frame {
     half: Wide,
     /// From the first corner to the first pixel's centre, in pixels.
     first: [Wide; 2],
+    /// [`Triangle::lift`](crate::setup::Triangle::lift).
+    lift: __m256i,
 }
 
 impl Frame {
@@ -172,12 +174,15 @@ pub fn set_up(source: &Source, indices: &[u32; EIGHT], out: &mut Triangles) {
     let size = _mm256_abs_epi32(area);
     let sixteenth = _mm256_set1_pd(1.0 / 16.0);
     let pixels = |v: __m256i| wide(v).map(|v| _mm256_mul_pd(v, sixteenth));
+    let extent = |a: __m256i, b: __m256i| _mm256_or_si256(_mm256_abs_epi32(a), _mm256_abs_epi32(b));
+    let extents = _mm256_add_epi32(extent(d1x, d2x), extent(d1y, d2y));
     let frame = Frame {
         d1: [times16(wide(signed(d1x))), times16(wide(signed(d1y)))],
         d2: [times16(wide(signed(d2x))), times16(wide(signed(d2y)))],
         area: wide(size),
         half: wide(_mm256_srli_epi32(size, 1)),
         first: [pixels(_mm256_sub_epi32(px, x[0])), pixels(_mm256_sub_epi32(py, y[0]))],
+        lift: _mm256_add_epi32(_mm256_srli_epi32(extents, 5), number(2)),
     };
     // U16.16 less 2^31: a difference of depths is the same.
     let biased = z.map(|z| wide(_mm256_xor_si256(z, number(i32::MIN))));
@@ -290,7 +295,7 @@ fn texture(
         let drop = _mm256_castpd_si256(_mm256_permute4x64_pd(mixed, 0b11_01_10_00));
         let shift = _mm256_sub_epi32(number(47 + SUBTEXEL_BITS as i32), drop);
         store(&mut out.shift[axis], shift);
-        let base = narrow(products[0]);
+        let base = _mm256_add_epi32(narrow(products[0]), frame.lift);
         odd |= frame.planes(products, base, &mut out.st[axis]);
     }
     odd

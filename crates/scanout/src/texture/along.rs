@@ -169,8 +169,7 @@ impl Along {
         for (axis, &over_w) in st.iter().enumerate() {
             let (shift, size) = (self.shift[axis] - (FRACTION - 12), self.size[axis] << FRACTION);
             let at = (over_w as u64 * r as u64 + (1 << (self.shift[axis] - 1))) >> shift;
-            // Rounding may leave a value just below 0, which wraps to the top.
-            if over_w > (1 << 31) + (1 << 13) || at >= size as u64 {
+            if at >= size as u64 {
                 return Block::NONE;
             }
             let at = at as u32;

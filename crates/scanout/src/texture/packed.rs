@@ -3,13 +3,12 @@
 //! ```text
 //! bit 63               32 31                0
 //!     [ depth            ][ 1/w             ]     one addition steps both
-//!     [ s/w, modulo 2^32 ][ 0               ]     the high half of its product with r is floor(s/w r / 2^32): nothing to widen
-//!     [ t/w, modulo 2^32 ][ 0               ]
+//!     [ s/w 2^(65 - shift)                  ]     the high half of its product with r is floor(s/w r / 2^(shift - 1)): half of
+//!     [ t/w 2^(65 - shift)                  ]     1/4096 texel, to be rounded by one addition, whatever the triangle's shift
 //! ```
 //!
 //! The lower half's plane has exact constants, not modulo 2^32, so that nothing of it goes over into the upper one; 1/w is positive at every
-//! covered pixel, as its error is 2^-18 of its largest. The texel is that of [`perspective`]: half of `2^shift` is a multiple of 2^32 from shift
-//! 33 on, so it may be added after the lower half is cut.
+//! covered pixel, as its error is 2^-18 of its largest, and s/w and t/w aren't negative, as they are lifted. The texel is that of [`perspective`].
 
 use super::perspective::{self, Perspective, integer_q, reciprocal};
 use super::{Repeat565, SUBTEXEL_BITS};
@@ -24,8 +23,6 @@ pub(crate) struct Packed {
     zq: WidePlane,
     s: WidePlane,
     t: WidePlane,
-    /// What is cut of the high halves of products before a half is added: [`Perspective::shift`] less 33.
-    shift: [u32; 2],
 }
 
 /// A pixel's values.
@@ -59,18 +56,20 @@ impl Packed {
         if shift[0].min(shift[1]) < 33 || least < 1 << 15 && [0, 1].into_iter().any(beyond) {
             return None;
         }
-        let [z, q, s, t] = t.exact_planes([z, q.map(|q| q << 8), s, tt]);
+        let lift = t.lift() as u64;
+        let [z, q, s, tt] = t.exact_planes([z, q.map(|q| q << 8), s, tt]);
         let over = |upper: [i64; 3], lower: [i64; 3]| {
             let both = |i: usize| ((upper[i] as u64) << 32).wrapping_add(lower[i] as u64);
             WidePlane { c: both(0), gx: both(1), gy: both(2) }
         };
         let z = [z[0] + depth::HALF as i64, z[1], z[2]];
-        Some(Packed {
-            zq: over(z, q),
-            s: over(s, [0; 3]),
-            t: over(t, [0; 3]),
-            shift: shift.map(|shift| shift - 33),
-        })
+        let at_the_top = |[c, gx, gy]: [i64; 3], i: usize| {
+            let c = (c as u64).wrapping_add(lift);
+            let [c, gx, gy] = [c, gx as u64, gy as u64].map(|v| v << (65 - shift[i]));
+            WidePlane { c, gx, gy }
+        };
+        let (s, t) = (at_the_top(s, 0), at_the_top(tt, 1));
+        Some(Packed { zq: over(z, q), s, t })
     }
 
     /// The values at (x, y).
@@ -94,10 +93,8 @@ impl Packed {
     pub(crate) fn texel(&self, sampler: &Repeat565, pixel: &PackedPixel) -> u16 {
         let r = reciprocal(integer_q(pixel.zq as u32));
         let (size, texels) = (sampler.size, sampler.texels);
-        let axis = |i: usize, value: u64| {
-            ((high_product(value, r) >> self.shift[i]) + 1) >> (SUBTEXEL_BITS + 1)
-        };
-        let [mut x, y] = [axis(0, pixel.s), axis(1, pixel.t)];
+        let axis = |value: u64| (high_product(value, r) + 1) >> (SUBTEXEL_BITS + 1);
+        let [mut x, y] = [axis(pixel.s), axis(pixel.t)];
         // Whole repeats are taken off at setup: few triangles reach into the next one.
         if x >= size[0] {
             x %= size[0];
