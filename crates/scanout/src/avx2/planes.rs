@@ -265,14 +265,16 @@ fn texture(
         let all = _mm256_or_si256(_mm256_or_si256(uv[0], uv[1]), uv[2]);
         let many = _mm256_cmpeq_epi32(_mm256_srli_epi32(all, 20), _mm256_setzero_si256());
         odd |= !_mm256_movemask_ps(_mm256_castsi256_ps(many)) as u32 & ALL;
-        // In 1/4096 texel, times 1/w: below 2^32 2^23.
+        // As `local`: twice 1/4096 texel and one, times 1/w: below 2^27 2^23.
         let scale = texture.size[axis] as f64 / (1u32 << (16 - SUBTEXEL_BITS)) as f64;
         let mut products = [[_mm256_setzero_pd(); 2]; 3];
         for k in 0..3 {
             let uv = wide(uv[k]);
             for i in 0..2 {
-                let local = _mm256_fmadd_pd(uv[i], _mm256_set1_pd(scale), _mm256_set1_pd(0.5));
-                products[k][i] = _mm256_mul_pd(_mm256_floor_pd(local), q_wide[k][i]);
+                let nearest = _mm256_fmadd_pd(uv[i], _mm256_set1_pd(scale), _mm256_set1_pd(0.5));
+                let nearest = _mm256_floor_pd(nearest);
+                let local = _mm256_add_pd(_mm256_add_pd(nearest, nearest), _mm256_set1_pd(1.0));
+                products[k][i] = _mm256_mul_pd(local, q_wide[k][i]);
             }
         }
         // Down to 31 bits, by the exponent of the largest.
@@ -293,7 +295,7 @@ fn texture(
         let drops = drops.map(|v| _mm256_castpd_ps(v));
         let mixed = _mm256_castps_pd(_mm256_shuffle_ps(drops[0], drops[1], 0b10_00_10_00));
         let drop = _mm256_castpd_si256(_mm256_permute4x64_pd(mixed, 0b11_01_10_00));
-        let shift = _mm256_sub_epi32(number(47 + SUBTEXEL_BITS as i32), drop);
+        let shift = _mm256_sub_epi32(number(48 + SUBTEXEL_BITS as i32), drop);
         store(&mut out.shift[axis], shift);
         let base = _mm256_add_epi32(narrow(products[0]), frame.lift);
         odd |= frame.planes(products, base, &mut out.st[axis]);

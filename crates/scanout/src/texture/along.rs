@@ -168,7 +168,7 @@ impl Along {
         let (mut block, mut margin) = (Block::NONE, 0);
         for (axis, &over_w) in st.iter().enumerate() {
             let (shift, size) = (self.shift[axis] - (FRACTION - 12), self.size[axis] << FRACTION);
-            let at = (over_w as u64 * r as u64 + (1 << (self.shift[axis] - 1))) >> shift;
+            let at = (over_w as u64 * r as u64) >> shift;
             if at >= size as u64 {
                 return Block::NONE;
             }

@@ -3,7 +3,7 @@
 //! ```text
 //! q   = plane of 1/w (U24.8), floor to an integer, at least 1
 //! r   = floor((2^47 - 1) / q)                       the reciprocal that all machines share
-//! s   = (plane of s/w * r + half) >> shift          sub-texel coordinate, 1/4096 texel
+//! s   = (plane of s/w * r) >> shift                 sub-texel coordinate, 1/4096 texel
 //! ```
 //!
 //! `q`, `s/w` and `t/w` are block floating point: [`setup`](crate::setup) scales each so that the largest of the three vertices

@@ -3,8 +3,8 @@
 //! ```text
 //! bit 63               32 31                0
 //!     [ depth            ][ 1/w             ]     one addition steps both
-//!     [ s/w 2^(65 - shift)                  ]     the high half of its product with r is floor(s/w r / 2^(shift - 1)): half of
-//!     [ t/w 2^(65 - shift)                  ]     1/4096 texel, to be rounded by one addition, whatever the triangle's shift
+//!     [ s/w 2^(52 - shift)                  ]     the high half of its product with r is floor(s/w r / 2^(shift + 12)), the texel's
+//!     [ t/w 2^(52 - shift)                  ]     column, whatever the triangle's shift
 //! ```
 //!
 //! The lower half's plane has exact constants, not modulo 2^32, so that nothing of it goes over into the upper one; 1/w is positive at every
@@ -51,9 +51,9 @@ impl Packed {
         }
         let (local, _) = perspective::local(uv, size.map(|size| size as u32));
         let ([s, tt], shift) = Perspective::values(&local, q);
-        // The definition's products are modulo 2^64: they are distances times 2^shift, and distances times 1/w are below 2^(78 - shift).
-        let beyond = |i: usize| local[i].iter().any(|&distance| distance >> (63 - shift[i]) != 0);
-        if shift[0].min(shift[1]) < 33 || least < 1 << 15 && [0, 1].into_iter().any(beyond) {
+        // The definition's products are modulo 2^64: they are distances times 2^(shift - 1), and distances times 1/w are below 2^(79 - shift).
+        let beyond = |i: usize| local[i].iter().any(|&distance| distance >> (64 - shift[i]) != 0);
+        if shift[0].min(shift[1]) < 20 || least < 1 << 15 && [0, 1].into_iter().any(beyond) {
             return None;
         }
         let lift = t.lift() as u64;
@@ -65,7 +65,8 @@ impl Packed {
         let z = [z[0] + depth::HALF as i64, z[1], z[2]];
         let at_the_top = |[c, gx, gy]: [i64; 3], i: usize| {
             let c = (c as u64).wrapping_add(lift);
-            let [c, gx, gy] = [c, gx as u64, gy as u64].map(|v| v << (65 - shift[i]));
+            let [c, gx, gy] =
+                [c, gx as u64, gy as u64].map(|v| v << (64 - SUBTEXEL_BITS - shift[i]));
             WidePlane { c, gx, gy }
         };
         let (s, t) = (at_the_top(s, 0), at_the_top(tt, 1));
@@ -93,8 +94,7 @@ impl Packed {
     pub(crate) fn texel(&self, sampler: &Repeat565, pixel: &PackedPixel) -> u16 {
         let r = reciprocal(integer_q(pixel.zq as u32));
         let (size, texels) = (sampler.size, sampler.texels);
-        let axis = |value: u64| (high_product(value, r) + 1) >> (SUBTEXEL_BITS + 1);
-        let [mut x, y] = [axis(pixel.s), axis(pixel.t)];
+        let [mut x, y] = [high_product(pixel.s, r), high_product(pixel.t, r)];
         // Whole repeats are taken off at setup: few triangles reach into the next one.
         if x >= size[0] {
             x %= size[0];

@@ -17,7 +17,7 @@ use crate::setup::Triangle;
 pub struct Perspective {
     /// s/w and t/w, block floating point.
     pub st: [Plane; 2],
-    /// Shifts that bring `plane * r` to 1/4096 texel.
+    /// Shifts that bring `plane * r` to 1/4096 texel, rounded down: half of that is in the plane.
     pub shift: [u32; 2],
 }
 
@@ -88,13 +88,13 @@ fn local_axis([a, b, c]: [i32; 3], size: u32) -> ([u64; 3], i32) {
     let repeats = a.min(b).min(c) >> 16;
     let distance = |u: i32| {
         let u = u as i64 - ((repeats as i64) << 16);
-        ((u * size as i64 + 8) >> (16 - SUBTEXEL_BITS)) as u64
+        ((u * size as i64 + 8) >> (15 - SUBTEXEL_BITS) | 1) as u64
     };
     ([distance(a), distance(b), distance(c)], repeats)
 }
 
-/// Distances in a texture of `size` from the whole repeats below the least texture coordinate, 1/4096 texel rounded to
-/// nearest, [0, 2^38); and those repeats.
+/// Distances in a texture of `size` from the whole repeats below the least texture coordinate, in 1/8192 texel: the nearest 1/4096
+/// texel and half of one, by which a pixel's place is rounded to nearest when it is cut; odd, [1, 2^39). And those repeats.
 #[inline(always)]
 pub(super) fn local(uv: [[i32; 2]; 3], size: [u32; 2]) -> ([[u64; 3]; 2], [i32; 2]) {
     let [[a, d], [b, e], [c, f]] = uv;
@@ -111,7 +111,7 @@ fn over_w(local: &[u64; 3], q: [u32; 3]) -> ([u32; 3], u32) {
     let over = ((a | b | c) >> 31) as u32;
     let drop = if over == 0 { 0 } else { 32 - leading_zeros(over) };
     let round = |p: u64| ((p + ((1 << drop) >> 1)) >> drop) as u32;
-    ([round(a), round(b), round(c)], 47 - drop)
+    ([round(a), round(b), round(c)], 48 - drop)
 }
 
 /// The planes of s/w and t/w where rounding takes no covered pixel's value below 0.
@@ -122,7 +122,7 @@ fn lifted(triangle: &Triangle, st: [Plane; 2]) -> [Plane; 2] {
 }
 
 impl Perspective {
-    /// From the corners' places in the texture, 1/4096 texel below 2^38, and their 1/w (integers, the largest in [2^22, 2^23)).
+    /// From the corners' places in the texture as [`local`] has them, and their 1/w (integers, the largest in [2^22, 2^23)).
     #[inline(always)]
     pub(super) fn new(
         triangle: &Triangle,
@@ -183,8 +183,7 @@ impl<'a> TextureSetup<'a> {
         [0, 1].map(|i| {
             let product = (st[i] as u64).wrapping_mul(r);
             let shift = self.perspective.shift[i];
-            let sub = product.wrapping_add(1 << (shift - 1)) >> shift;
-            sub as i64 + ((self.base[i] as i64) << SUBTEXEL_BITS)
+            (product >> shift) as i64 + ((self.base[i] as i64) << SUBTEXEL_BITS)
         })
     }
 
@@ -318,8 +317,7 @@ pub(super) fn texel_of_repeat(size: [u64; 2], shift: [u32; 2], st: [u32; 2], r: 
 #[inline(always)]
 pub(super) fn column_and_row(size: [u64; 2], shift: [u32; 2], st: [u32; 2], r: u64) -> [usize; 2] {
     let axis = |i: usize| {
-        let product = (st[i] as u64).wrapping_mul(r).wrapping_add(1 << (shift[i] - 1));
-        let texel = whole(product, shift[i] + SUBTEXEL_BITS);
+        let texel = whole((st[i] as u64).wrapping_mul(r), shift[i] + SUBTEXEL_BITS);
         // Whole repeats are taken off at setup: few triangles reach into the next one.
         (if texel < size[i] { texel } else { texel % size[i] }) as usize
     };
@@ -378,7 +376,7 @@ fn thresholds(
     q: [u32; 3],
     levels: u8,
 ) -> [u32; MAX_LEVELS as usize - 1] {
-    let d = |i: usize, axis: usize| st[axis][i] as i128 - st[axis][0] as i128;
+    let d = |i: usize, axis: usize| (st[axis][i] as i128 - st[axis][0] as i128) / 2;
     // 1/2^24 texel^2 against 1/2^8 pixel^2.
     let texture_area = (d(1, 0) * d(2, 1) - d(2, 0) * d(1, 1)).unsigned_abs();
     let cube = q.iter().map(|&q| q as u128).product::<u128>();

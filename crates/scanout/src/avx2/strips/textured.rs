@@ -132,13 +132,11 @@ impl<T: Tint> Textured<'_, T> {
         let odd = _mm256_srli_epi64(even, 32);
         let axis = |row: &Row, shift: u32| {
             let v = row.from(window);
-            let half = _mm256_set1_epi64x(1 << (shift - SUBTEXEL_BITS - 1));
-            let rounded = |v: __m256i, r: __m256i| _mm256_add_epi64(_mm256_mul_epu32(v, r), half);
             // Odd lanes end in the upper half of their 64 bits.
             let low = _mm_cvtsi32_si128(shift as i32);
             let high = _mm_cvtsi32_si128(shift as i32 - 32);
-            let a = _mm256_srl_epi64(rounded(v, even), low);
-            let b = _mm256_srl_epi64(rounded(_mm256_srli_epi64(v, 32), odd), high);
+            let a = _mm256_srl_epi64(_mm256_mul_epu32(v, even), low);
+            let b = _mm256_srl_epi64(_mm256_mul_epu32(_mm256_srli_epi64(v, 32), odd), high);
             _mm256_blend_epi32(a, b, 0b1010_1010)
         };
         let [s, t] = &self.st;
