@@ -29,6 +29,13 @@ pub trait Tint {
     fn tint(&self, texel: u16) -> u16;
 }
 
+impl<T: Tint> Tint for &T {
+    #[inline(always)]
+    fn tint(&self, texel: u16) -> u16 {
+        (*self).tint(texel)
+    }
+}
+
 /// A colour prepared for few texels, in the way that suits the machine.
 #[cfg(target_pointer_width = "64")]
 pub type Factors = InLanes;

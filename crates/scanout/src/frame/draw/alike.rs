@@ -89,6 +89,7 @@ impl<'a> Frame<'a> {
                 });
             }
             (false, Some(sampler)) => {
+                let mut last = None;
                 self.draw_alike(source, run, lights, target, |target, t, v, primitive| {
                     let (uv, q) = (uv(primitive.index as usize), q(v));
                     let (z, rgb) = (v.map(|v| v.z), primitive.rgb);
@@ -101,11 +102,15 @@ impl<'a> Frame<'a> {
                             Some(tint) if !tabled => {
                                 target.fill_packed(t, &packed, &Tinted { rgb, tint }, &sampler)
                             }
-                            _ => fill_tabled(target, t, &packed, rgb, &sampler),
+                            _ => {
+                                let inner = with_tables(&mut last, rgb);
+                                target.fill_packed(t, &packed, &inner, &sampler)
+                            }
                         };
                     }
                     if NARROW && tabled {
-                        return draw_tabled(target, t, &t.plane(z), rgb, sampler, uv, q);
+                        let inner = with_tables(&mut last, rgb);
+                        return by_rows(target, t, &t.plane(z), inner, sampler, uv, q);
                     }
                     let inner = Tinted { rgb, tint: Factors::new(rgb) };
                     if target.walks() {
@@ -138,7 +143,7 @@ impl<'a> Frame<'a> {
         run: &[Primitive],
         lights: &mut Option<(u16, Lighting)>,
         target: &mut Target<F>,
-        draw: impl Fn(&mut Target<F>, &Triangle, &[&Vertex; 3], &Primitive),
+        mut draw: impl FnMut(&mut Target<F>, &Triangle, &[&Vertex; 3], &Primitive),
     ) {
         let rows = target.rows.clone();
         for primitive in run.iter().filter(|p| p.touches(&rows)) {
@@ -243,30 +248,14 @@ pub(super) fn by_rows<F: PixelFormat, S: Shader, T: Plain>(
     target.fill(t, z, &Walked { inner, sampler, way });
 }
 
-/// Draws a textured triangle of one colour and many pixels along its rows.
+/// One colour with its tables, which are the last triangle's if that had the same: the halves of a flat quadrilateral do.
 #[inline(never)]
-fn draw_tabled<F: PixelFormat>(
-    target: &mut Target<F>,
-    t: &Triangle,
-    z: &Plane,
-    rgb: [u8; 3],
-    sampler: Repeat565,
-    uv: [[i32; 2]; 3],
-    q: [u32; 3],
-) {
-    by_rows(target, t, z, Tinted { rgb, tint: Tables::new(rgb) }, sampler, uv, q);
-}
-
-/// The same where long products are had.
-#[inline(never)]
-fn fill_tabled<F: PixelFormat>(
-    target: &mut Target<F>,
-    t: &Triangle,
-    packed: &Packed,
-    rgb: [u8; 3],
-    sampler: &Repeat565,
-) {
-    target.fill_packed(t, packed, &Tinted { rgb, tint: Tables::new(rgb) }, sampler);
+fn with_tables(last: &mut Option<([u8; 3], Tables)>, rgb: [u8; 3]) -> Tinted<&Tables> {
+    if last.as_ref().is_some_and(|&(known, _)| known != rgb) {
+        *last = None;
+    }
+    let (_, tint) = last.get_or_insert_with(|| (rgb, Tables::new(rgb)));
+    Tinted { rgb, tint }
 }
 
 /// Depth and colours through three vertices.
