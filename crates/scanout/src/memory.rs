@@ -3,7 +3,7 @@
 
 /// Fills 16-bit memory by the machine's own words: `slice::fill` stores one element at a time where there are no vectors.
 pub(crate) fn fill(memory: &mut [u16], value: u16) {
-    const AT_ONCE: usize = 16;
+    const AT_ONCE: usize = 32;
     // Where the value is known, the compiler would call `memset`, which is slower on small machines.
     let value = core::hint::black_box(value);
     let word = usize::MAX / 0xffff * value as usize;

@@ -124,6 +124,13 @@ impl<F: PixelFormat> Target<'_, F> {
             return avx2.fill(pixels.colours, Rgb565::encode(*rgb));
         }
         let (width, dither) = (self.width, features::DITHER && self.dither);
+        let pixels = width * self.rows.len();
+        if let (Background::Colour(rgb), false, Some(colours)) =
+            (background, dither, F::rgb565(self.colour).and_then(|all| all.get_mut(..pixels)))
+        {
+            // Not row by row: a row has few words.
+            return memory::fill(colours, Rgb565::encode(*rgb));
+        }
         for y in self.rows.clone() {
             let (row, _) = self.row(y);
             if let (Background::Colour(rgb), false) = (background, dither) {
