@@ -10,7 +10,7 @@
 //! The lower half's plane has exact constants, not modulo 2^32, so that nothing of it goes over into the upper one; 1/w is positive at every
 //! covered pixel, as its error is 2^-18 of its largest, and s/w and t/w aren't negative, as they are lifted. The texel is that of [`perspective`].
 
-use super::perspective::{self, Perspective};
+use super::perspective::{self, NUMERATOR, Perspective};
 use super::{Repeat565, SUBTEXEL_BITS};
 use crate::depth;
 use crate::interpolate::WidePlane;
@@ -92,14 +92,14 @@ impl Packed {
     /// A pixel's texel, as it is stored.
     #[inline(always)]
     pub(crate) fn texel(&self, sampler: &Repeat565, pixel: &PackedPixel) -> u16 {
-        let q = (pixel.zq >> 8) & 0xff_ffff;
-        let r = ((1u64 << 47) - 1)
-            / if q == 0 {
+        // Of the whole register: were it of its lower half, the compiler would step a copy.
+        let r = match (pixel.zq >> 8) & 0xff_ffff {
+            0 => {
                 seldom();
-                1
-            } else {
-                q
-            };
+                NUMERATOR
+            }
+            q => NUMERATOR / q,
+        };
         let (size, texels) = (sampler.size, sampler.texels);
         let [mut x, y] = [high_product(pixel.s, r), high_product(pixel.t, r)];
         // Whole repeats are taken off at setup: few triangles reach into the next one.
@@ -127,6 +127,7 @@ impl PackedPixel {
 
 #[cfg(test)]
 mod tests {
+    use super::super::perspective::{integer_q, reciprocal};
     use super::super::{Sampler, Texels, Texture};
     use super::*;
     use crate::math::testing::Random;

@@ -45,9 +45,12 @@ pub fn reciprocal(q: u32) -> u64 {
     if NARROW && (1 << 15..1 << 24).contains(&q) {
         if NO_DIVISION { reciprocal_by_seeds(q) as u64 } else { long_division(q) as u64 }
     } else {
-        ((1u64 << 47) - 1) / q as u64
+        NUMERATOR / q as u64
     }
 }
+
+/// What [`reciprocal`] divides.
+pub(super) const NUMERATOR: u64 = (1 << 47) - 1;
 
 /// [`reciprocal`] for `q` in [2^15, 2^24): 23 bits of the dividend, then eight and eight, by 32-bit divisions.
 #[inline(always)]
@@ -511,6 +514,47 @@ mod tests {
                 assert_eq!(fast.texel(&lean, st, q, r), any.texel(&setup, st, q, r));
             }
         }
+    }
+
+    /// A pixel whose centre lies on an edge along the texture's border has a texel of that border, however the planes are rounded.
+    #[test]
+    fn pixels_on_the_border_have_its_texels() {
+        let texels: [u16; 64 * 64] = core::array::from_fn(|i| i as u16);
+        let texture = Texture::new(64, 64, Texels::Rgb565(&texels)).unwrap();
+        let sampler = super::super::Repeat565::new(&texture).unwrap();
+        let mut seed = 11u64;
+        let mut random = |n: u64| {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((seed >> 33) % n) as i32
+        };
+        let mut on_edge = 0;
+        for case in 0..6000 {
+            // The edge from one pixel's centre to another, where u is 0, 64 repeats from the third corner; some triangles reach far beyond the
+            // frame.
+            let [from, to] = [(); 2].map(|()| [16 * random(60) + 8, 16 * random(90) + 8]);
+            let reach = if case % 2 == 0 { 1 << 20 } else { 3000 };
+            let v = [from, to, [from[0] + 1 + random(reach), random(reach)]];
+            let Some(t) = Triangle::new(v) else { continue };
+            let uv = [0, 0, 64 << 16].map(|u| [u, random(1 << 16)]);
+            let mut q = [(); 3].map(|()| (1 << 20) + random(1 << 22) as u32);
+            q[case % 3] = (1 << 22) + random(1 << 22) as u32;
+            let ([_, q_plane], setup) = sampler.setup_with(&t, [0; 3], uv, q);
+            let steps = (to[0] - from[0]).abs().max((to[1] - from[1]).abs()) / 16;
+            for step in 0..=steps {
+                let on = |i: usize| {
+                    let (n, d) = ((to[i] - from[i]) / 16 * step, steps.max(1));
+                    (n % d == 0).then_some(from[i] / 16 + n / d)
+                };
+                let (Some(x), Some(y)) = (on(0), on(1)) else { continue };
+                if t.covers(x, y) {
+                    let st = setup.st.map(|plane| plane.at(x, y));
+                    let r = reciprocal(integer_q(q_plane.at(x, y)));
+                    assert_eq!(sampler.texel565(&setup, st, r) % 64, 0, "{v:?} {x} {y}");
+                    on_edge += 1;
+                }
+            }
+        }
+        assert!(on_edge > 5000, "{on_edge}");
     }
 
     #[test]
