@@ -93,13 +93,12 @@ impl Packed {
     #[inline(always)]
     pub(crate) fn texel(&self, sampler: &Repeat565, pixel: &PackedPixel) -> u16 {
         // Of the whole register: were it of its lower half, the compiler would step a copy.
-        let r = match (pixel.zq >> 8) & 0xff_ffff {
-            0 => {
-                seldom();
-                NUMERATOR
-            }
-            q => NUMERATOR / q,
-        };
+        let mut q = (pixel.zq >> 8) & 0xff_ffff;
+        if q == 0 {
+            seldom();
+            q = 1;
+        }
+        let r = NUMERATOR / q;
         let (size, texels) = (sampler.size, sampler.texels);
         let [mut x, y] = [high_product(pixel.s, r), high_product(pixel.t, r)];
         // Whole repeats are taken off at setup: few triangles reach into the next one.
