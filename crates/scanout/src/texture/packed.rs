@@ -35,7 +35,7 @@ pub(crate) struct PackedPixel {
 
 impl Packed {
     /// From three corners' depths, texture coordinates and 1/w; `None` for a triangle that reaches far from the frame, has less than half
-    /// a pixel's area, is 2^17 times as far away at one corner as at another, or for which the texture is too large.
+    /// a pixel's area, is 2^17 times as far away at one corner as at another, or on which the texture repeats too often.
     #[inline(always)]
     pub(crate) fn new(
         t: &Triangle,
