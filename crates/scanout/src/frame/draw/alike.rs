@@ -59,6 +59,8 @@ impl<'a> Frame<'a> {
     }
 
     /// Draws primitives of one object one by one: how their triangles are made is decided here, once.
+    // A call, so that other ways have its memory.
+    #[inline(never)]
     pub(super) fn draw_plain<F: PixelFormat>(
         &self,
         source: &Source,
