@@ -136,11 +136,12 @@ impl Triangle {
     /// What planes that must not fall below 0 are lifted by: no less than their rounding can take away at a covered pixel.
     ///
     /// Gradients err by half a unit a column and a row, from corner 0 on, and `c` by less than one: together by at most half the sum of the
-    /// sides' reach in x and in y, and one. Beyond [`small`](Self::small), 2^11 for what is left of `e` bits and half the frame's width and height.
+    /// sides' reach in x and in y, and one. Nothing beyond [`small`](Self::small): rounding may err by 2^12 there, and lifting all by so much would
+    /// move more texels than it mends.
     #[inline(always)]
     pub(crate) fn lift(&self) -> u32 {
         if !self.small {
-            return 1 << 13;
+            return 0;
         }
         let [d1, d2] = self.sides();
         let reach = |i: usize| d1[i].unsigned_abs() | d2[i].unsigned_abs();
