@@ -2,8 +2,8 @@
 //!
 //! Setup takes whole repeats off the texture coordinates, so that they are small and not negative, multiplies them by the
 //! corners' 1/w and scales each of the two products by a power of two to fill 31 bits (block floating point). The planes through these
-//! of triangles that don't reach far beyond the frame are lifted by what their rounding can err, `Triangle::lift`, in a frame of 320x240 at most 2^-21 of their largest value: no pixel on
-//! an edge at the texture's border may fall below 0, where another column's texel lies.
+//! are lifted by what their rounding can err, `Triangle::lift`, in a frame of 320x240 at most 2^-21 of their largest value: no pixel on
+//! an edge at the texture's border may fall below 0, where another column's texel lies. (Triangles that reach beyond 2048 pixels aren't.)
 
 use super::{Filter, MAX_LEVELS, SUBTEXEL_BITS, Texels, Texture, Wrap};
 use crate::features;
